@@ -229,6 +229,7 @@ scenes! {
     epps_gives_the_numbers_it_gave "6205-epps"
     healthy_gives_the_numbers_it_gave "6205-healthy"
     hosted_gives_the_numbers_it_gave "6205-hosted"
+    rotor_gives_the_numbers_it_gave "6205-rotor"
     inner_5deg_gives_the_numbers_it_gave "6205-inner-5deg"
     inner_5deg_as_shipped_gives_the_numbers_it_gave "6205-inner-5deg-map"
     irregular_cage_gives_the_numbers_it_gave "6205-irregular-cage"

@@ -31,8 +31,8 @@ const CRATES: [(&str, &[&str]); 11] = [
     ("fmu-build", &["brinell", "brinell-analysis", "brinell-scene-file"]),
     ("laboratory", &["brinell", "brinell-analysis", "brinell-scene-file", "fmu-build"]),
     ("tests/adversary/oracle", &[]),
-    ("tests/fuzz", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-scene-file"]),
-    ("fmu-build/tests/host", &[]),
+    ("tests/fuzz", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-scene-file", "brinell-tests"]),
+    ("tests/host", &[]),
 ];
 
 #[test]

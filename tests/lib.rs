@@ -1,4 +1,9 @@
 //! What all tests of this package stand on.
+// What helpers unwrap is a test's own set-up.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+pub mod resources;
+pub mod snapshot;
 
 use std::path::Path;
 

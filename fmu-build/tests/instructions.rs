@@ -7,9 +7,6 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
-#[allow(dead_code, unreachable_pub, reason = "others use the rest of it")]
-#[path = "host/src/lib.rs"]
-mod host;
 
 use std::collections::BTreeMap;
 use std::env;

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import plotting
 from matplotlib.ticker import LogLocator, NullFormatter
-from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, plt
+from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, plt
 
 data, stem = Path(sys.argv[1]), Path(sys.argv[2])
 LOOK = {
@@ -55,38 +55,6 @@ for axis in axes.flat[max(len(scenes) - columns, 0) : len(scenes)]:
     axis.tick_params(labelbottom=True)
     axis.set_xlabel("CPU seconds per simulated second")
 plotting.save(figure, stem)
-
-# Co-simulation: one row of panels for each scene, one panel for each mass.
-WAYS = {"held": (VERMILION, "v", ":"), "extrapolated": (GREEN, "s", "--"), "rolled back once": (BLUE, "o", "-")}
-# Where a run is unstable there is no error to draw: a cross at the upper edge says so, each way at its own height.
-CROSSES = {"held": 3.0, "extrapolated": 12.0, "rolled back once": 48.0}
-panels = defaultdict(lambda: defaultdict(list))
-with open(data / "co-simulation.csv", encoding="utf-8") as file:
-    for row in csv.DictReader(file):
-        error = np.nan if row["error"] == "unstable" else float(row["error"])
-        panels[row["scene"], float(row["host_mass_kg"])][row["coupling"]].append((float(row["step_s"]), error))
-columns = len({mass for _, mass in panels})
-rows = len(panels) // columns
-figure, axes = plt.subplots(
-    rows, columns, figsize=(plotting.WIDTH, 0.4 + 2.6 * rows), sharex=True, sharey=True, squeeze=False
-)
-for axis, ((scene, mass), ways) in zip(axes.flat, panels.items()):
-    for way, points in ways.items():
-        colour, marker, line = WAYS[way]
-        step, error = np.array(points).T
-        axis.loglog(step, error, line, color=colour, marker=marker, markersize=4, label=way)
-        unstable = step[np.isnan(error)]
-        if unstable.size:
-            axis.plot(unstable, np.full(unstable.size, CROSSES[way]), "x", color=colour, markersize=5)
-    axis.set_title(f"{scene}, {mass:g} kg")
-    axis.set_ylim(1e-8, 120.0)
-    axis.axhline(1.0, color="black", linewidth=0.7)
-for axis in axes[:, 0]:
-    axis.set_ylabel("position error (rms / rms)")
-for axis in axes[-1]:
-    axis.set_xlabel("communication step (s), × unstable")
-axes[0, 0].legend(loc="lower right")
-plotting.save(figure, stem.with_name(stem.name + "-co-simulation"))
 
 # One contact: grids and maps.
 with open(data / "contact.csv", encoding="utf-8") as file:

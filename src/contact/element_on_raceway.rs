@@ -7,10 +7,9 @@
 
 use super::error::ContactError;
 use super::rolling::RacewaySide;
-use crate::contact::law::LINE_ORDER;
 use crate::geometry::curvature::relative_curvature;
 use crate::geometry::hertz_constant::squared_eccentricity;
-use crate::geometry::line_contact::{half_width_under, logarithmic_depth};
+use crate::geometry::line_contact::{LINE_ORDER, half_width_under, logarithmic_depth};
 use crate::numerics::elementary::elliptic;
 use crate::scene::{Bearing, RollerProfile};
 
@@ -131,6 +130,15 @@ impl ElementOnRaceway {
         }
     }
 
+    /// Second derivative (1/m) of the part along the raceway, at distance t (m) from the element.
+    pub(super) fn along_second(&self, t: f64) -> f64 {
+        let (element, raceway) = (circle_second(self.element_radius, t), circle_second(self.raceway_radius, t));
+        match self.raceway {
+            RacewaySide::Inner => element + raceway,
+            RacewaySide::Outer => element - raceway,
+        }
+    }
+
     /// Part of the gap across the raceway, at distance t (m) from the element's middle.
     pub(super) fn across(&self, t: f64) -> f64 {
         match self.across {
@@ -159,4 +167,10 @@ impl ElementOnRaceway {
 fn circle(radius: f64, t: f64) -> [f64; 2] {
     let root = (radius * radius - t * t).sqrt();
     [t * t / (radius + root), t / root]
+}
+
+/// Its second derivative.
+fn circle_second(radius: f64, t: f64) -> f64 {
+    let square = radius * radius - t * t;
+    radius * radius / (square * square.sqrt())
 }

@@ -37,3 +37,21 @@ impl EquivalentApproach {
         [force * self.du, -force * self.ds]
     }
 }
+
+/// Second derivatives of an equivalent approach.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SecondDerivatives {
+    /// ∂²Δ/∂u² (1/m).
+    pub uu: f64,
+    /// ∂²Δ/∂u∂s (1/m).
+    pub us: f64,
+    /// ∂²Δ/∂s² (1/m).
+    pub ss: f64,
+}
+
+impl SecondDerivatives {
+    /// [Δ_uu, Δ_us, Δ_ss].
+    pub fn rows(self) -> [f64; 3] {
+        [self.uu, self.us, self.ss]
+    }
+}

@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_of_cells_that_fails_is_told_without_a_residual_that_is_no_number() {
+    fn a_set_of_cells_that_fails_is_reported_without_a_residual_that_is_nan() {
         let matrix = ContactError::NotPositiveDefinite { pivot: 7, cells: 50 }.to_string();
         assert!(matrix.contains("pivot 7 ") && matrix.contains(" 50 pressed cells is not above 0"), "{matrix}");
         let cycle = ContactError::Cycles { cells: 50, limit: 100 }.to_string();

@@ -9,73 +9,54 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use super::equivalent::EquivalentApproach;
+use super::equivalent::{EquivalentApproach, SecondDerivatives};
 use super::error::ContactError;
 use crate::contact::love::LoveContact;
 use crate::contact::map::{ContactMap, Unmapped};
 use crate::contact::rolled_path::RigidPath;
+use crate::numerics::number::Scalar;
 
 /// Equivalent approach of one element to a raceway, and the direction of the contact force on the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Approach {
+pub struct Approach<T = f64> {
     /// Δ (m); negative when there is a gap.
-    pub value: f64,
+    pub value: T,
     /// ∂Δ/∂u
-    pub by_path: f64,
+    pub by_path: T,
     /// ∂Δ/∂ψ (m/rad)
-    pub by_angle: f64,
+    pub by_angle: T,
     /// Part of the direction away from the raceway: inwards from the outer one, outwards from the inner one.
-    pub radial: f64,
+    pub radial: T,
     /// Tangential part of the direction, counter-clockwise.
-    pub tangential: f64,
-    /// ∂(radial)/∂u (1/m)
-    pub radial_by_path: f64,
-    /// ∂(tangential)/∂u (1/m)
-    pub tangential_by_path: f64,
+    pub tangential: T,
 }
 
-impl Approach {
+/// Step (m) of the differences that stand for third derivatives of an approach.
+const STEP: f64 = 1e-9;
+
+impl<T: Scalar> Approach<T> {
     /// That of the smooth raceway at approach `u` (m).
-    pub fn smooth(u: f64) -> Self {
-        Self {
-            value: u,
-            by_path: 1.0,
-            by_angle: 0.0,
-            radial: 1.0,
-            tangential: 0.0,
-            radial_by_path: 0.0,
-            tangential_by_path: 0.0,
-        }
+    #[inline(always)]
+    pub fn smooth(u: T) -> Self {
+        let [zero, one] = [0.0, 1.0].map(T::from);
+        Self { value: u, by_path: one, by_angle: zero, radial: one, tangential: zero }
     }
 
-    /// No number at all: an integration that meets it takes the step back.
+    /// NaN: an integration that meets it takes the step back.
     pub fn unsolved() -> Self {
-        Self { value: f64::NAN, radial: f64::NAN, tangential: f64::NAN, ..Self::smooth(f64::NAN) }
+        let nan = T::from(f64::NAN);
+        Self { value: nan, radial: nan, tangential: nan, ..Self::smooth(nan) }
     }
 
-    /// From a potential's Δ(u, s): forces are its gradient. Per turning angle s = B ψ, B the radius of the body that
-    /// bears the defect, and the tangential force acts at the lever.
-    fn of(approach: &EquivalentApproach, bearer_radius: f64, lever: Lever) -> Self {
-        let share = bearer_radius / lever.distance;
-        Self {
-            value: approach.value,
-            by_path: approach.du,
-            by_angle: approach.ds * bearer_radius,
-            radial: approach.du,
-            tangential: -approach.ds * share,
-            radial_by_path: approach.duu,
-            tangential_by_path: share * (lever.by_approach * approach.ds / lever.distance - approach.dus),
-        }
+    /// From a potential's [Δ, Δ_u, Δ_s]: forces are its gradient. Per turning angle s = B ψ, B the radius of the body
+    /// that bears the defect, and the tangential force acts at the lever, the element's `distance` from the ring's
+    /// centre.
+    #[inline(always)]
+    fn of([value, du, ds]: [T; 3], bearer_radius: f64, distance: T) -> Self {
+        let share = T::from(bearer_radius) / distance;
+        let by_angle = ds * T::Plain::from(bearer_radius);
+        Self { value, by_path: du, by_angle, radial: du, tangential: -ds * share }
     }
-}
-
-/// Distance of an element's centre from that of a ring.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lever {
-    /// Distance (m).
-    pub distance: f64,
-    /// Its change with the approach: 1 outside, where it grows, and −1 inside.
-    pub by_approach: f64,
 }
 
 /// A surface near its defect under one contact law.
@@ -129,6 +110,13 @@ impl NearLove {
             None => self.contact.borrow_mut().solve(u, s),
         }
     }
+
+    fn second_derivatives(&self, cell: usize, u: f64, s: f64) -> Result<SecondDerivatives, ContactError> {
+        match self.flats[cell] {
+            Some(_) => Ok(SecondDerivatives::default()),
+            None => self.contact.borrow_mut().second_derivatives(u, s),
+        }
+    }
 }
 
 impl NearDefect {
@@ -143,34 +131,56 @@ impl NearDefect {
     }
 
     /// Approach in `cell` at the approach `u` (m) to the smooth raceway and at `angle` (rad) from the defect's centre,
-    /// which may lie slightly beyond the cell's ends; `lever` is that of the element about the ring's centre.
+    /// which may lie slightly beyond the cell's ends, of an element at this `distance` (m) from the ring's centre.
+    /// With derivatives, those of the slopes along the surface are left out if it is not to be taken as `curved`.
     ///
     /// # Errors
     /// Where the law was not prepared for so large an approach, or the grid cannot be solved.
     #[inline(always)]
-    pub fn approach(&self, cell: usize, u: f64, angle: f64, lever: Lever) -> Result<Approach, ContactError> {
+    pub fn approach<T: Scalar>(
+        &self,
+        cell: usize,
+        u: T,
+        angle: T,
+        distance: T,
+        curved: bool,
+    ) -> Result<Approach<T>, ContactError> {
         match self {
             Self::Map(near) => {
-                let found = near.map.lookup_in(cell, u, angle * near.bearer_radius)?;
-                Ok(Approach::of(&found, near.bearer_radius, lever))
+                let at = [u, angle * T::Plain::from(near.bearer_radius)];
+                let found = near.map.lookup_in(cell, at[0].value(), at[1].value())?;
+                let second = &mut |[u, s]: [f64; 2]| match curved {
+                    true => near.map.second_derivatives_in(cell, u, s).map(SecondDerivatives::rows),
+                    false => Ok([found.duu, found.dus, 0.0]),
+                };
+                let approach = T::surface(at, [found.value, found.du, found.ds], STEP, second)?;
+                Ok(Approach::of(approach, near.bearer_radius, distance))
             }
             Self::Love(near) => {
-                Ok(Approach::of(&near.solve(cell, u, angle * near.bearer_radius)?, near.bearer_radius, lever))
+                let at = [u, angle * T::Plain::from(near.bearer_radius)];
+                let found = near.solve(cell, at[0].value(), at[1].value())?;
+                let second = &mut |[u, s]: [f64; 2]| match curved {
+                    true => near.second_derivatives(cell, u, s).map(SecondDerivatives::rows),
+                    false => Ok([found.duu, found.dus, 0.0]),
+                };
+                let approach = T::surface(at, [found.value, found.du, found.ds], STEP, second)?;
+                Ok(Approach::of(approach, near.bearer_radius, distance))
             }
             Self::Hertz(path) => {
-                let point = path.at(cell, angle);
-                let tan = point.slope / lever.distance;
-                let radial = 1.0 / (1.0 + tan * tan).sqrt();
-                let tangential = tan * radial;
+                let point = path.at(cell, angle.value());
+                let zero = T::from(0.0);
+                let along = |angle: f64| if curved { path.second_derivative(cell, angle) } else { 0.0 };
+                let second = &mut |[angle, _]: [f64; 2]| Ok([along(angle), 0.0, 0.0]);
+                let first = [point.path, point.slope, 0.0];
+                let [path, slope, _] = T::surface([angle, zero], first, STEP / distance.value(), second)?;
+                let tan = slope / distance;
+                let radial = T::from(1.0) / (T::from(1.0) + tan * tan).sqrt();
                 Ok(Approach {
-                    value: u - point.path,
-                    by_path: 1.0,
-                    by_angle: -point.slope,
+                    value: u - path,
+                    by_path: T::from(1.0),
+                    by_angle: -slope,
                     radial,
-                    tangential,
-                    // κ = atan(P′/ρ): ∂κ/∂u = −sin κ cos κ/ρ outside, where ρ grows with u
-                    radial_by_path: lever.by_approach * (tangential * tangential * radial / lever.distance),
-                    tangential_by_path: lever.by_approach * (-tangential * radial * radial / lever.distance),
+                    tangential: tan * radial,
                 })
             }
         }

@@ -1,7 +1,7 @@
 //! Equations of motion of rings, rolling elements and sensor: state in, derivative and forces out.
 //!
-//! Knows neither steps nor hosts. Time enters only through a [`Drive`](parameters::Drive), which gives the cage angle
-//! and the prescribed motions and loads as polynomials of the time since the last communication point.
+//! Knows neither steps nor hosts. Time enters only through a [`Excitation`](parameters::Excitation), which gives the
+//! cage angle and the prescribed motions and loads as polynomials of the time since the last communication point.
 
 pub mod contacts;
 pub mod derivatives;

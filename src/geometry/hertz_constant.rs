@@ -105,8 +105,8 @@ mod tests {
         let at = |ratio: f64| point_contact(250.0, 250.0 * ratio, 1e11);
         // K varies as √(curvature) to first order; the second difference of three near points is rounding.
         for step in [1e-7, 1e-5, 1e-3] {
-            let bend = at(1.0 + step) - 2.0 * at(1.0) + at(1.0 / (1.0 + step));
-            assert!(bend.abs() < 2.0 * step * step * at(1.0) + 1e-8 * at(1.0), "{step}: {bend}");
+            let second = at(1.0 + step) - 2.0 * at(1.0) + at(1.0 / (1.0 + step));
+            assert!(second.abs() < 2.0 * step * step * at(1.0) + 1e-8 * at(1.0), "{step}: {second}");
         }
     }
 

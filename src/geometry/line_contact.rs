@@ -18,6 +18,9 @@ const BOTH_CONTACTS: f64 = 35948e6;
 /// Lengths over diameter from which on the logarithmic crown leaves the roller's middle straight.
 const LONG: f64 = 2.5;
 
+/// Order of a line contact's force in its approach.
+pub const LINE_ORDER: f64 = 10.0 / 9.0;
+
 /// K_1 (N/m^(10/9)) of one contact of a straight roller of this effective length (m).
 pub fn line_constant(length: f64) -> f64 {
     let two = ninth_root(2.0);

@@ -61,10 +61,10 @@ pub trait Wide: Simd {
     /// Four numbers in one register.
     fn four(self, numbers: [f64; QUAD]) -> <Self::Quad as Simd>::f64s;
 
-    /// The larger of two numbers in each lane; `value` where either is no number.
+    /// The larger of two numbers in each lane; `value` where either is NaN.
     fn larger(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s;
 
-    /// The smaller of two numbers in each lane; `value` where either is no number.
+    /// The smaller of two numbers in each lane; `value` where either is NaN.
     fn smaller(self, value: Self::f64s, limit: Self::f64s) -> Self::f64s;
 
     /// Adds to `sum`; four numbers to its upper or lower half.
@@ -272,25 +272,25 @@ impl<S: Wide> Lanes<S> {
         Self(self.0, self.0.abs_f64s(self.1))
     }
 
-    /// 0 where the number is negative; what is not a number stays so.
+    /// 0 where the number is negative; NaN stays NaN.
     #[inline(always)]
     pub fn or_zero(self) -> Self {
         self.at_least(Self::splat(self.0, 0.0))
     }
 
-    /// The larger of two; where this is not a number, this.
+    /// The larger of two; where this is NaN, this.
     #[inline(always)]
     pub fn at_least(self, limit: Self) -> Self {
         Self(self.0, self.0.larger(self.1, limit.1))
     }
 
-    /// The smaller of two; where this is not a number, this.
+    /// The smaller of two; where this is NaN, this.
     #[inline(always)]
     pub fn at_most(self, limit: Self) -> Self {
         Self(self.0, self.0.smaller(self.1, limit.1))
     }
 
-    /// In each lane `yes` where this is less than `limit`, else `no`; also where either is no number.
+    /// In each lane `yes` where this is less than `limit`, else `no`; also where either is NaN.
     #[inline(always)]
     pub fn if_less(self, limit: Self, yes: Self, no: Self) -> Self {
         Self(self.0, self.0.select_f64s(self.0.less_than_f64s(self.1, limit.1), yes.1, no.1))

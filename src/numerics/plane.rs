@@ -3,14 +3,16 @@
 //! They are nalgebra's of fixed size, whose sums and products are ordinary IEEE operations one by one, in an order that
 //! the size fixes: equal bits on every machine.
 
+use super::number::Scalar;
+
 /// A vector of the plane.
-pub type Vector = nalgebra::Vector2<f64>;
+pub type Vector<T = f64> = nalgebra::Vector2<T>;
 /// A linear map of the plane.
 pub type Matrix = nalgebra::Matrix2<f64>;
 
 /// `v` turned by a right angle counter-clockwise: e_t from e_r.
 #[inline(always)]
-pub fn turned(v: Vector) -> Vector {
+pub fn turned<T: Scalar>(v: Vector<T>) -> Vector<T> {
     Vector::new(-v.y, v.x)
 }
 

@@ -41,7 +41,7 @@ pub enum SimulationError {
     #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
     NoDerivative,
     /// A state that names cells of a raceway which this model does not have.
-    #[error("the state is none of this model's: it has an element in a part of the defect that is not there")]
+    #[error("the state is not of this model: it has an element in a part of the defect that is not there")]
     ForeignState,
     /// Oil films so thick that they press the contacts beyond the elastic range.
     #[error(

@@ -2,19 +2,21 @@
 //! model description lists, in initialization mode and at a communication point, and by time; of shipped scenes and of
 //! random ones.
 //!
-//! A difference knows its own error by half its step. Where an element begins to be pressed within it, it says nothing.
+//! A difference knows its own error by its neighbours' steps. Where an element begins to be pressed within it, which
+//! the shorter ones show, it says nothing.
 
 use crate::case::{Case, Motion, Shape};
 use crate::draw::{Draw, for_seeds};
-use crate::host::Resources;
 use crate::random_case::random;
 use crate::three::{Host, reals};
-use crate::two;
+use crate::two::{self, Resources};
+use crate::units::position_error;
 use brinell::simulation::Simulation;
-use brinell::simulation::interface::table::{Causality, Dependencies, Kind};
+use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit};
 use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
 use brinell_fmi::fmi3::{Status, fmi3GetDirectionalDerivative, fmi3GetOutputDerivatives};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Steps of differences, as parts of what is changed.
 const PARTS: [f64; 9] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
@@ -39,6 +41,31 @@ struct Both {
     unknowns: Vec<u32>,
     rows: Vec<u32>,
     dependencies: Vec<Dependencies>,
+    /// Shortest way (m) by which a difference moves what shapes a bearing: arcs of neighbouring defects are rounded.
+    shortest: f64,
+    /// Radius at which an angle is a way (m).
+    radius: f64,
+}
+
+/// The derivative of the unknown `i` that differences over ever shorter steps tell best, and what that may be wrong by.
+/// One is wrong by what its two neighbours differ from it, and by the rounding of an output of this `size`: of two that
+/// are noise one in a hundred is near the other by chance, of three one in 1e4. It says nothing where neighbours go
+/// farther from it than a third of itself, roundings aside; nor if a shorter one differs from it by more than both may
+/// be wrong by, as a contact opens or closes on the way.
+fn most_told(quotients: &[Vec<f64>], steps: &[f64], i: usize, size: f64, given: f64) -> Option<(f64, f64)> {
+    let of = |k: usize| {
+        let [longer, it, shorter] = [k - 1, k, k + 1].map(|k| quotients[k][i]);
+        let (spread, rounding) = ((longer - it).abs().max((shorter - it).abs()), ROUNDING * size / steps[k + 1]);
+        let own = if spread <= (it.abs() / 3.0).max(rounding) { spread + 0.1 * rounding } else { f64::INFINITY };
+        (it, own)
+    };
+    let all: Vec<(f64, f64)> = (1..steps.len().max(2) - 1).map(of).collect();
+    let agree = |(a, own_a): (f64, f64), (b, own_b): (f64, f64)| (a - b).abs() <= 3.0 * (own_a + own_b);
+    let tells = |&k: &usize| {
+        let (value, own) = all[k];
+        own <= TELLING * value.abs().max(given.abs()) && all[k..].iter().all(|&shorter| agree(all[k], shorter))
+    };
+    (0..all.len()).filter(tells).map(|k| all[k]).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// How many derivatives were compared, and how many a difference said nothing about.
@@ -63,7 +90,7 @@ impl Both {
         };
         let rows = unknowns.iter().flat_map(all).collect();
         let dependencies = simulation.dependencies();
-        Ok(Self { two, unknowns, rows, dependencies, three })
+        Ok(Self { two, unknowns, rows, dependencies, three, shortest: 0.0, radius: 0.0 })
     }
 
     fn name(&self, row: u32) -> &str {
@@ -132,13 +159,13 @@ impl Both {
 
     /// Compares the derivatives by one known with differences of it; those of outputs that do not list it must be 0.
     fn by(&self, known: u32, listed: impl Fn(&Dependencies) -> bool, count: &mut Count) -> Result<(), String> {
-        let Kind::Real { nominal, min, max, .. } = self.three.table()[known as usize].kind else { return Ok(()) };
+        let Kind::Real { nominal, min, max, unit, .. } = self.three.table()[known as usize].kind else { return Ok(()) };
         let is_listed = |row: u32| self.dependencies.iter().any(|of| of.output == row && listed(of));
         let mut at = self.three.get(&[known]).map_err(|_| self.three.last_message())?[0];
         // Differences go both ways from where the known is, or from beside its limit.
         // A defect that turns farther may come upon its neighbour.
         let whole = if self.name(known).starts_with("defect") { 1e-2 } else { 1.0 };
-        let steps = PARTS.map(|part| whole * part * if at == 0.0 { nominal } else { at.abs() });
+        let mut steps = PARTS.map(|part| whole * part * if at == 0.0 { nominal } else { at.abs() }).to_vec();
         let room = 2.0 * steps[0];
         if let (Some(min), Some(max)) = (min, max)
             && (at - min < room || max - at < room)
@@ -146,13 +173,21 @@ impl Both {
             at = at.clamp(min + room, max - room);
             self.set(known, at)?;
         }
+        if self.three.table()[known as usize].causality == Causality::Parameter {
+            let way = match unit {
+                Unit::Metre => 1.0,
+                Unit::Radian => self.radius,
+                _ => f64::INFINITY,
+            };
+            steps.retain(|step| step * way >= self.shortest);
+        }
         let (middle, given) = (self.outputs()?, self.given(known)?);
         let look = |value: f64| {
             self.set(known, value)?;
             self.outputs()
         };
         let mut quotients = Vec::new();
-        for step in steps {
+        for &step in &steps {
             let (below, above) = (look(at - step)?, look(at + step)?);
             quotients.push(below.iter().zip(above).map(|(a, b)| (b - a) / (2.0 * step)).collect::<Vec<f64>>());
         }
@@ -172,17 +207,10 @@ impl Both {
                 }
                 continue;
             }
-            // The finest pair of differences that are near each other, with what is rounding in them.
-            let pair = |k: &usize| {
-                let rounding = 0.1 * ROUNDING * size / steps[k + 1];
-                (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
-            };
-            let tells = |k: &usize| pair(k) <= TELLING * quotients[k + 1][i].abs().max(given[i].abs());
-            let Some(k) = (0..steps.len() - 1).rev().find(tells) else {
+            let Some((expected, own)) = most_told(&quotients, &steps, i, size, given[i]) else {
                 count.untold += 1;
                 continue;
             };
-            let (expected, own) = (quotients[k + 1][i], pair(&k));
             count.compared += 1;
             let limit = share(self.name(row)) * expected.abs() + 3.0 * own + rounding;
             if !((given[i] - expected).abs() <= limit) {
@@ -215,7 +243,7 @@ impl Both {
         let now = self.outputs()?;
         // One-sided quotients of second order.
         let mut quotients = Vec::new();
-        let steps = [4e-8, 1e-8, 2.5e-9];
+        let steps = [1.6e-7, 4e-8, 1e-8, 2.5e-9, 6.25e-10];
         for step in steps {
             let (one, two) = (after(step)?, after(2.0 * step)?);
             let all = now.iter().zip(one).zip(two);
@@ -227,16 +255,10 @@ impl Both {
             if self.name(row).contains("mean_force") || self.name(row).starts_with("solver") {
                 continue;
             }
-            let pair = |k: &usize| {
-                let rounding = 0.1 * ROUNDING * self.size(row, &now) / steps[k + 1];
-                (quotients[*k][i] - quotients[k + 1][i]).abs() + rounding
-            };
-            let k = (0..steps.len() - 1).min_by(|a, b| pair(a).total_cmp(&pair(b))).unwrap();
-            let (expected, own) = (quotients[k + 1][i], pair(&k));
-            if own > TELLING * expected.abs().max(given[i].abs()) {
+            let Some((expected, own)) = most_told(&quotients, &steps, i, self.size(row, &now), given[i]) else {
                 count.untold += 1;
                 continue;
-            }
+            };
             count.compared += 1;
             if !((given[i] - expected).abs() <= share(self.name(row)) * expected.abs() + 3.0 * own) {
                 return Err(format!("{} by time: {} given, {expected} found ({own:e})", self.name(row), given[i]));
@@ -334,35 +356,45 @@ fn derivatives_by_all_that_a_shipped_scene_lists_are_differences() {
 
 #[test]
 fn derivatives_by_all_that_a_random_scene_lists_are_differences() {
-    for_seeds(10, |_, draw| listed_by_a_random_scene(draw));
+    let all = AtomicUsize::new(0);
+    for_seeds(10, |_, draw| {
+        all.fetch_add(listed_by_a_random_scene(draw)?, Ordering::Relaxed);
+        Ok(())
+    });
+    // Of ten, half can be set up and started.
+    let all = all.into_inner();
+    assert!(all > 100, "{all} compared");
 }
 
 /// Balls of which a housing on a spring of 38 N/m is held: the difference of two starts was one of 1000 N/m.
 #[test]
 fn a_soft_spring_is_moved_by_its_own_share() {
-    listed_by_a_random_scene(&mut Draw::new(136)).unwrap();
+    assert!(listed_by_a_random_scene(&mut Draw::new(136)).unwrap() > 0);
 }
 
-fn listed_by_a_random_scene(draw: &mut Draw) -> Result<(), String> {
+/// How many derivatives were compared.
+fn listed_by_a_random_scene(draw: &mut Draw) -> Result<usize, String> {
     let (_, case) = random(draw);
     let profiles = case.profiles();
     let topography = case.defects.iter().any(|defect| matches!(defect.shape, Shape::Topography(_)));
     // Resources of tests hold one profile.
     if topography || profiles.len() > 1 {
-        return Ok(());
+        return Ok(0);
     }
     let text = case.toml();
-    let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(()) };
+    let Ok(scene) = brinell_scene_file::from_toml(&text) else { return Ok(0) };
     // What is refused, at once or at the start, is another test's.
     let started = Simulation::new(scene.clone(), profiles.iter().map(String::as_str))
         .and_then(|mut simulation| simulation.initialize(0.0).map(|()| simulation));
     if started.is_err() {
-        return Ok(());
+        return Ok(0);
     }
     let profile = scene.profile_names().into_iter().next().zip(profiles.first());
     let resources = Resources::new(&text, profile.map(|(name, text)| (name, text.as_str())), "resources");
-    let both = Both::new(resources)?;
+    let radius = 0.5 * scene.bearing.pitch_diameter;
+    // Of which one rounding is a thousandth.
+    let both = Both { shortest: 1e3 * position_error(&case), radius, ..Both::new(resources)? };
     let Count { compared, untold } = both.agree(&hosted(&case), case.steps[0].length)?;
     println!("{compared} compared, {untold} untold");
-    Ok(())
+    Ok(compared)
 }

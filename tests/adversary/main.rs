@@ -9,10 +9,8 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
 
+mod corpus;
 mod derivatives;
-#[path = "../fmi2/host.rs"]
-#[allow(dead_code)]
-mod host;
 mod invariances;
 mod misuse;
 mod recordings;
@@ -20,11 +18,15 @@ mod scenes;
 mod subject;
 #[path = "../support/mod.rs"]
 mod support;
+#[path = "../fuzz/src/targets/mod.rs"]
+mod targets;
 #[path = "../fmi3/host.rs"]
 #[allow(dead_code)]
 mod three;
+#[path = "../fmi2/host.rs"]
+#[allow(dead_code)]
+mod two;
 mod units;
 
 use brinell_oracle as oracle;
 use brinell_oracle::{case, draw, random_case};
-use host as two;

@@ -9,7 +9,7 @@ mod foreign;
 mod machine;
 mod signals;
 
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Report, size};
 use brinell_analysis::statistics::Random;
 use machine::{RATE, scene};
@@ -24,18 +24,26 @@ const SECONDS: f64 = 2.0;
 
 /// Reads a file of these bytes; an error as what the user sees of it.
 fn read_as(ending: &str, bytes: &[u8], rate: Option<f64>) -> Result<Recording, String> {
+    read_with(ending, bytes, rate, TextFormat::default())
+}
+
+/// The same of a text whose numbers are written so.
+fn read_with(ending: &str, bytes: &[u8], rate: Option<f64>, text: TextFormat) -> Result<Recording, String> {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let name = format!("recording-{}-{}.{ending}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::write(&path, bytes).unwrap();
-    let source = Source { rate, speed: Speed::Constant(SPEED), signal: None };
+    let source = Source { rate, speed: Speed::Constant(SPEED), signal: None, text };
     let read = Recording::read(&path, &source);
     std::fs::remove_file(&path).unwrap();
     read.map_err(|error| error.to_string())
 }
 
+/// Columns that are parted by semicolons.
+const SEMICOLONS: TextFormat = TextFormat { delimiter: Some(';'), decimal: None };
+
 fn read(text: &str) -> Result<Recording, String> {
-    read_as("csv", text.as_bytes(), None)
+    read_with("csv", text.as_bytes(), None, SEMICOLONS)
 }
 
 #[track_caller]

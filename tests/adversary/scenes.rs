@@ -13,7 +13,6 @@ use crate::oracle::surface::Surface;
 use crate::random_case::random;
 use crate::subject::{Refusal, Subject};
 use brinell::contact::error::ContactError;
-use brinell::contact::near_defect::Lever;
 use brinell::dynamics::parameters::{Defects, Frames, SMOOTH};
 use brinell::simulation::SimulationError;
 use judge::{Verdict, judge};
@@ -171,10 +170,12 @@ fn path_is_the_envelope(
     for psi in angles.into_iter().map(within_half_a_turn) {
         let direction = psi + surface.centre;
         let cell = defects.cell_at(direction);
-        let lever = Lever { distance: oracle.rho_0, by_approach: 1.0 };
         let found = match cell {
             SMOOTH => 0.0,
-            _ => -defects.approach(cell, 0.0, direction, &Frames::default(), lever).map_err(|e| e.to_string())?.value,
+            _ => {
+                let frames = Frames::default();
+                -defects.approach(cell, 0.0, direction, &frames, oracle.rho_0, true).map_err(|e| e.to_string())?.value
+            }
         };
         let expected = envelope.touched(psi).1;
         // Roundings of the radii, and the polynomials that the path is kept as.

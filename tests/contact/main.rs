@@ -15,6 +15,7 @@ mod pressure;
 mod rigid_path;
 mod rollers;
 mod rollers_near_defects;
+mod second_derivatives;
 #[path = "../support/mod.rs"]
 mod support;
 mod surface;

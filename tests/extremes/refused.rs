@@ -78,7 +78,7 @@ pub fn too_deep(kind: Kind) -> Row {
     refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
 }
 
-/// A contact near the defect that has no answer gives an approach that is no number; the step must fail, and not take
+/// A contact near the defect that has no answer gives an approach that is NaN; the step must fail, and not take
 /// it for no contact.
 pub fn contact_without_answer(kind: Kind) -> Row {
     let mut scene = kind.spalled();
@@ -119,7 +119,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
 /// What runs away is named with its last value, and not what follows from it.
 #[test]
 fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_position() {
-    // Near a defect under law `map`, where the contacts are no numbers then.
+    // Near a defect under law `map`, where the contacts are NaN then.
     let mut scene = BALLS.spalled();
     (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
     let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };

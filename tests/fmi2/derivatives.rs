@@ -1,6 +1,6 @@
 //! Derivatives by inputs: what the functions give is what a host finds by differences.
 
-use crate::host::Host;
+use crate::two::Host;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variable};
 use brinell_fmi::fmi2::*;
 

@@ -4,12 +4,10 @@
 //! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
 //! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
-use brinell::scene::model_file;
-use brinell::simulation::interface::table::guid;
 use brinell_fmi::fmi2::*;
+pub(crate) use brinell_tests::resources::Resources;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_void};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{fs, ptr};
@@ -81,67 +79,6 @@ unsafe extern "C" fn release(_: *mut c_void) {
 
 unsafe extern "C" fn finished(_: ComponentEnvironment, _: Status) {
     FORBIDDEN_CALLS.fetch_add(1, Ordering::Relaxed);
-}
-
-/// An unpacked `resources/` directory, deleted when dropped.
-pub(crate) struct Resources {
-    pub(crate) directory: PathBuf,
-    pub(crate) guid: String,
-}
-
-static NUMBER: AtomicU32 = AtomicU32::new(0);
-
-impl Resources {
-    /// The resources of a scene in `scenes/`.
-    pub(crate) fn of(scene: &str) -> Self {
-        Self::named(scene, "resources")
-    }
-
-    /// The same in a directory whose name the test chooses.
-    pub(crate) fn named(scene: &str, name: &str) -> Self {
-        Self::edited(scene, name, |text| text)
-    }
-
-    /// The same with a change to the scene's text.
-    pub(crate) fn edited(scene: &str, name: &str, edit: impl FnOnce(String) -> String) -> Self {
-        let scenes = brinell_tests::root().join("scenes");
-        let text = fs::read_to_string(scenes.join(format!("{scene}.toml"))).unwrap();
-        // The interface is tested with the law that needs no contact map; computing one takes seconds.
-        let text = edit(text.replace("law = \"map\"", "law = \"hertz\""));
-        let profile =
-            text.lines().find_map(|line| Some(line.strip_prefix("profile = \"")?.split('"').next()?.to_owned()));
-        let profile = profile.map(|file| (fs::read_to_string(scenes.join(&file)).unwrap(), file));
-        Self::new(&text, profile.as_ref().map(|(text, file)| (file.as_str(), text.as_str())), name)
-    }
-
-    /// Resources made of a scene's text and a profile.
-    pub(crate) fn new(scene: &str, profile: Option<(&str, &str)>, name: &str) -> Self {
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let unique = format!("fmi2-{}-{number}", std::process::id());
-        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(unique).join(name);
-        fs::create_dir_all(&directory).unwrap();
-        fs::write(directory.join("scene.toml"), scene).unwrap();
-        let model = model_file::encode(&brinell_scene_file::from_toml(scene).unwrap(), scene).unwrap();
-        fs::write(directory.join("model.bin"), model).unwrap();
-        if let Some((file, text)) = profile {
-            fs::write(directory.join(file), text).unwrap();
-        }
-        Self { directory, guid: guid(scene, profile.map(|(_, text)| text)) }
-    }
-
-    /// The location as a URI with every odd byte escaped.
-    pub(crate) fn uri(&self) -> String {
-        let path = self.directory.to_str().unwrap();
-        let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"/-_.~:".contains(byte);
-        let escape = |byte: u8| if plain(&byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
-        format!("file://{}", path.bytes().map(escape).collect::<String>())
-    }
-}
-
-impl Drop for Resources {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(self.directory.parent().unwrap());
-    }
 }
 
 /// What a host passes to `fmi2Instantiate`; `None` stands for NULL.
@@ -261,6 +198,14 @@ impl Host {
     pub(crate) fn step(&self, point: f64, size: f64) -> Status {
         // SAFETY: no pointers but the handle.
         unsafe { fmi2DoStep(self.c, point, size, TRUE) }
+    }
+
+    /// The communication point that the last step led to (s).
+    pub(crate) fn last_time(&self) -> f64 {
+        let mut time = f64::NAN;
+        // SAFETY: any handle may be passed; `time` may be written.
+        unsafe { fmi2GetRealStatus(self.c, LAST_SUCCESSFUL_TIME, &raw mut time) };
+        time
     }
 
     pub(crate) fn get(&self, references: &[u32]) -> Result<Vec<f64>, Status> {

@@ -1,6 +1,6 @@
-//! Hosts that break the rules in ways that a random walk (`tests/adversary/misuse.rs`) leaves out.
+//! Hosts that break the rules in ways that a random walk (`tests/adversary/misuse`) leaves out.
 
-use crate::host::{Host, logger};
+use crate::two::{Host, logger};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 

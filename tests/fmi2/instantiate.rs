@@ -1,6 +1,6 @@
 //! Instances: what makes one, what is refused, and handles.
 
-use crate::host::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
+use crate::two::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
 use brinell::scene::model_file;
 use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, c_void};
@@ -208,7 +208,7 @@ fn instances_in_eight_threads_give_the_bits_of_one_alone() {
         for n in 0..40 {
             assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
         }
-        crate::host::bits(&host.get(&host.reals()).unwrap())
+        crate::two::bits(&host.get(&host.reals()).unwrap())
     };
     let alone = run();
     let together: Vec<_> = std::thread::scope(|scope| {

@@ -1,6 +1,6 @@
 //! The host's logger.
 
-use crate::host::{Call, Host, Resources};
+use crate::two::{Call, Host, Resources};
 use brinell_fmi::fmi2::*;
 use std::ffi::CString;
 use std::ptr;

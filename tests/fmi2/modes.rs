@@ -1,6 +1,6 @@
 //! In which mode each function may be called.
 
-use crate::host::Host;
+use crate::two::Host;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
@@ -140,7 +140,7 @@ fn a_reset_instance_runs_like_a_new_one_to_the_bit() {
         for n in 0..20 {
             assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
         }
-        crate::host::bits(&host.get(&host.reals()).unwrap())
+        crate::two::bits(&host.get(&host.reals()).unwrap())
     };
     let host = Host::of("er16k-tb1");
     let first = run(&host);
@@ -188,6 +188,6 @@ fn the_functions_of_model_exchange_are_errors_that_name_the_right_one() {
         assert!(line.message.starts_with(name) && line.message.contains("fmi2DoStep"), "{line:?}");
         assert_eq!(host.restore(state), Status::Ok);
     }
-    // SAFETY: a handle that is none.
+    // SAFETY: a handle that is not one.
     assert_eq!(unsafe { fmi2SetTime(ptr::null_mut(), 0.0) }, Status::Error);
 }

@@ -1,7 +1,7 @@
 //! Derivatives of outputs by time are what a host finds by short steps.
 
-use crate::derivatives::{SCENES, inputs, outputs, references};
-use crate::host::Host;
+use super::derivatives::{SCENES, inputs, outputs, references};
+use crate::two::Host;
 use brinell::simulation::interface::table::{Kind, Unit};
 use brinell_fmi::fmi2::*;
 use std::ptr;

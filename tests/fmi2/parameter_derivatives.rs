@@ -1,7 +1,7 @@
 //! Derivatives by parameters, which are knowns in initialization mode.
 
-use crate::derivatives::{SCENES, is_real, outputs, references};
-use crate::host::Host;
+use super::derivatives::{SCENES, is_real, outputs, references};
+use crate::two::Host;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell_fmi::fmi2::*;
 
@@ -72,7 +72,7 @@ fn derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_
             }
         }
         assert!(compared > 50, "{scene}: {compared}");
-        // The law is no number: there is no derivative, and the run goes on.
+        // The law is NaN: there is no derivative, and the run goes on.
         let law = [host.reference("contact.law")];
         assert_eq!(host.directional(&unknowns, &law, &[1.0]), Err(Status::Discard));
         assert_eq!(host.get(&unknowns).unwrap(), middle, "{scene}");

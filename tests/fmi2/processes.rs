@@ -1,6 +1,6 @@
 //! A state that goes through bytes into another process continues there with the same bits.
 
-use crate::host::{Host, Resources, bits};
+use crate::two::{Host, Resources, bits};
 use brinell_fmi::fmi2::*;
 use std::path::PathBuf;
 use std::process::Command;
@@ -39,10 +39,7 @@ fn child() {
     let host = Host::with(Resources::new(&text, None, "resources"), "another process", true);
     let state = host.deserialize(&fs::read(folder.join("state")).unwrap()).unwrap();
     assert_eq!(host.restore(state), Status::Ok, "{:?}", host.lines());
-    let mut time = 0.0;
-    // SAFETY: a pointer to one value.
-    assert_eq!(unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &raw mut time) }, Status::Ok);
-    fs::write(folder.join("result"), run(&host, time)).unwrap();
+    fs::write(folder.join("result"), run(&host, host.last_time())).unwrap();
 }
 
 fn continues_elsewhere(resources: Resources, lead: f64) {
@@ -61,7 +58,7 @@ fn continues_elsewhere(resources: Resources, lead: f64) {
     let expected = run(&host, time);
 
     let output = Command::new(env::current_exe().unwrap())
-        .args(["processes::child", "--exact", "--ignored"])
+        .args(["fmi2::processes::child", "--exact", "--ignored"])
         .env(FOLDER, &folder)
         .output()
         .unwrap();

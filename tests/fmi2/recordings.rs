@@ -1,6 +1,6 @@
 //! A recording has one writer: two instances never share a file, be it in one process or in two.
 
-use crate::host::{Host, Resources};
+use crate::two::{Host, Resources};
 use brinell_fmi::fmi2::*;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -151,7 +151,7 @@ fn child() {
 
 fn other_process(folder: &Path) -> Child {
     let mut child = Command::new(env::current_exe().unwrap())
-        .args(["recordings::child", "--exact", "--ignored", "--nocapture"])
+        .args(["fmi2::recordings::child", "--exact", "--ignored", "--nocapture"])
         .env(FOLDER, folder)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

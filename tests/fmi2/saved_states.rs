@@ -1,6 +1,6 @@
 //! Saving, restoring and serializing the state of an instance.
 
-use crate::host::{Host, Resources, bits};
+use crate::two::{Host, Resources, bits};
 use brinell::simulation::interface::table::Kind;
 use brinell_fmi::fmi2::*;
 use std::ptr;

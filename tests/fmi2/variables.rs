@@ -1,6 +1,6 @@
 //! Reading and setting variables.
 
-use crate::host::Host;
+use crate::two::Host;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell_fmi::fmi2::*;
 use std::ptr;

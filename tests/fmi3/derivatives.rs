@@ -1,6 +1,6 @@
 //! Derivatives and dependencies under FMI 3.0.
 
-use crate::host::Host;
+use crate::three::Host;
 use crate::two;
 use crate::two::bits;
 use brinell::simulation::interface::table::{Causality, Kind};

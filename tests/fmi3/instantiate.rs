@@ -1,6 +1,6 @@
 //! How an instance comes to be, and what a logger hears of it.
 
-use crate::host::{Call, Host, Resources};
+use crate::three::{Call, Host, Resources};
 use brinell_fmi::fmi3::*;
 use std::ffi::CStr;
 use std::ptr;

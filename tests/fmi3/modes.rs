@@ -1,6 +1,6 @@
 //! In which mode each function may be called.
 
-use crate::host::Host;
+use crate::three::Host;
 use brinell_fmi::fmi3::*;
 use std::ptr;
 
@@ -210,7 +210,7 @@ fn an_instance_of_one_version_is_none_of_the_other() {
 
 #[test]
 fn a_panic_inside_a_step_reaches_the_host_as_a_status_and_a_reset_mends_it() {
-    let host = Host::with(crate::host::Resources::of("6205-healthy"), "panic on demand", &[], None);
+    let host = Host::with(crate::three::Resources::of("6205-healthy"), "panic on demand", &[], None);
     host.start();
     assert_eq!(host.do_step(0.0, 1e-5), Err(Status::Error));
     assert!(host.last_message().contains("internal error: panic on demand"));

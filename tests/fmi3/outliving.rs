@@ -1,7 +1,7 @@
 //! A call within an intermediate update that does not end with it: against the standard, and no reason to wait for
 //! ever.
 
-use crate::host::Resources;
+use crate::three::Resources;
 use brinell_fmi::fmi3::*;
 use std::ffi::{CStr, CString};
 use std::sync::atomic::{AtomicBool, Ordering};

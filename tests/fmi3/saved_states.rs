@@ -1,6 +1,6 @@
 //! Saving, restoring and serializing under FMI 3.0, and to and from FMI 2.0.
 
-use crate::host::Host;
+use crate::three::Host;
 use crate::two;
 use crate::two::bits;
 use brinell_fmi::fmi3::*;

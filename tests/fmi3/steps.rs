@@ -1,6 +1,6 @@
 //! Steps: the bits of FMI 2.0, what `fmi3DoStep` gives, and what it refuses.
 
-use crate::host::Host;
+use crate::three::Host;
 use crate::two;
 use crate::two::bits;
 use brinell_fmi::fmi3::*;

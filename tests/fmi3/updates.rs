@@ -1,6 +1,6 @@
 //! Intermediate updates and the early returns that a host asks for in them.
 
-use crate::host::{Host, OnUpdate, Update, get, reals, set};
+use crate::three::{Host, OnUpdate, Update, get, reals, set};
 use crate::two::bits;
 use brinell_fmi::fmi3::*;
 use std::cell::RefCell;
@@ -74,7 +74,7 @@ fn a_run_that_is_watched_has_the_bits_of_one_that_is_not() {
 #[test]
 fn law_love_which_starts_anew_after_each_inspection_agrees_within_what_its_solver_leaves() {
     let love = |text: String| text.replace("law = \"hertz\"", "law = \"love\"");
-    let resources = || crate::host::Resources::edited("er16k-tb1", "resources", love);
+    let resources = || crate::three::Resources::edited("er16k-tb1", "resources", love);
     let watched = Host::with(resources(), "instance 1", &[], Some(Box::new(|_| None)));
     let plain = Host::with(resources(), "instance 1", &[], None);
     for host in [&watched, &plain] {
@@ -185,7 +185,7 @@ fn an_input_set_in_an_update_acts_from_there_on() {
         let host = if updated {
             Host::updated("6205-hosted", &names, on_update)
         } else {
-            Host::with(crate::host::Resources::of("6205-hosted"), "instance 1", &[], None)
+            Host::with(crate::three::Resources::of("6205-hosted"), "instance 1", &[], None)
         };
         if !updated {
             host.start();
@@ -322,9 +322,9 @@ fn what_an_update_may_not_do_fails_the_step_with_the_reason() {
 
 #[test]
 fn a_host_that_cannot_handle_an_early_return_gets_none() {
-    let resources = crate::host::Resources::of("6205-healthy");
+    let resources = crate::three::Resources::of("6205-healthy");
     let path = resources.directory.to_str().unwrap();
-    let call = crate::host::Call {
+    let call = crate::three::Call {
         name: Some("instance 1"),
         token: Some(&resources.guid),
         path: Some(path),

@@ -1,6 +1,6 @@
 //! Reading and setting: scalars, arrays, types, and what is refused.
 
-use crate::host::Host;
+use crate::three::Host;
 use crate::two;
 use crate::two::bits;
 use brinell::simulation::interface::table::{Causality, Kind};
@@ -130,7 +130,7 @@ fn values_outside_their_range_and_nan_are_discarded_under_fmi_3_and_change_nothi
 #[test]
 fn counters_enumerations_and_strings_have_their_types() {
     let host = Host::with(
-        crate::host::Resources::edited("er16k-tb1", "resources", |text| {
+        crate::three::Resources::edited("er16k-tb1", "resources", |text| {
             text + "\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n"
         }),
         "instance 1",

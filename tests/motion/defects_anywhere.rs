@@ -151,26 +151,26 @@ fn a_state_put_back_continues_with_the_same_bits() {
 /// (W).
 fn energy_and_power(bearing: &mut Named, scene: &Scene) -> (f64, f64) {
     let cage_torque = bearing.get("cage.torque");
-    let (model, drive) = bearing.0.equations();
+    let (model, excitation) = bearing.0.equations();
     let state = bearing.0.state_vector();
-    let cells = model.cells_at(&drive, 0.0, state);
+    let cells = model.cells_at(&excitation, 0.0, state);
     let mut forces = Forces::new(model.element_count);
-    model.derivative(&drive, 0.0, &cells, state, &mut vec![0.0; state.len()], &mut forces);
+    model.derivative(&excitation, 0.0, &cells, state, &mut vec![0.0; state.len()], &mut forces);
     let (hertz, layout) = (HertzConstants::of(&scene.bearing), &model.layout);
     let stored = |k: f64, approach: f64| 0.4 * k * approach.max(0.0).powf(2.5);
     let i = layout.shaft.unwrap();
     let mut energy = 0.5 * scene.shaft.mass * (state[i + 2].powi(2) + state[i + 3].powi(2));
     energy -= scene.shaft.load[0] * state[i] + scene.shaft.load[1] * state[i + 1];
-    let speed = drive.cage.0[1];
+    let speed = excitation.cage.0[1];
     for j in 0..model.element_count {
         let (rho, w) = (model.outer_centre_radius + state[j], state[layout.radial_velocity + j]);
-        let angle = drive.cage_start + model.element_offset(j);
+        let angle = excitation.cage_start + model.element_offset(j);
         energy += 0.5 * model.element_mass * (w * w + (rho * speed).powi(2));
         energy -= model.element_mass * rho * (scene.gravity[0] * angle.cos() + scene.gravity[1] * angle.sin());
         energy += stored(hertz.inner, forces.contacts.inner_approach[j]);
         energy += stored(hertz.outer, forces.contacts.outer_approach[j]);
     }
-    let spin = drive.frames[Frame::Spin as usize].since.0[1];
+    let spin = excitation.frames[Frame::Spin as usize].since.0[1];
     let power = forces.torque_on(Frame::Shaft) * scene.shaft_speed
         + cage_torque * speed
         + forces.torque_on(Frame::Spin) * (spin - speed);

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{map_of, profiles_of, shipped, shipped_as_it_is};
-use brinell::scene::{Ring, Scene};
+use brinell::scene::{
+    Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, Ring, Roller, RollerProfile, RollingElement, Scene,
+};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 
@@ -203,4 +205,142 @@ fn the_stiffness_over_a_defect_inside_changes_with_time_as_its_derivative_says()
         }
     }
     assert!(compared > 500, "{compared}");
+}
+
+const BOTTOM: f64 = -std::f64::consts::FRAC_PI_2;
+
+/// Balls without weight, the first at the bottom, in rings that a host holds.
+fn weightless(radial_clearance: f64, outer_compliance: f64) -> Scene {
+    let bearing = Bearing { radial_clearance, outer_compliance, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
+    let scene = Scene::builder(bearing).gravity([0.0; 2]).shaft(Ring::hosted()).housing(Ring::fixed());
+    scene.cage(0.0, BOTTOM).law(ContactLaw::Hertz).build().unwrap()
+}
+
+/// Presses the inner ring down until the ball at the bottom is touched, and by this much (m) further.
+fn press(simulation: &mut Simulation, x: f64, further: f64) -> f64 {
+    let [x_of, y_of, force] =
+        ["shaft.x", "shaft.y", "element[1].force.inner"].map(|name| simulation.reference(name).unwrap());
+    let (mut deep, mut open) = (-100e-6, 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (deep + open);
+        simulation.set_reals(&[x_of, y_of], &[x, middle]).unwrap();
+        if reals(simulation, &[force])[0] > 0.0 { deep = middle } else { open = middle }
+    }
+    simulation.set_reals(&[y_of], &[deep - further]).unwrap();
+    deep - further
+}
+
+#[test]
+fn the_stiffness_of_contacts_pressed_in_by_less_than_a_nanometre_changes_as_its_derivative_says() {
+    // Beside an edge, where a ball hangs on it and is not on the floor.
+    let spall = |on: DefectOn| {
+        let mut scene = weightless(5e-6, 0.0);
+        let length = 1.2e-3;
+        let radius = if on == DefectOn::Inner { 15.55e-3 } else { 23.49e-3 };
+        let shape = DefectShape::Spall { length, depth: 30e-6, edge_slope: 87f64.to_radians() };
+        scene.defects = vec![Defect { on, angle: BOTTOM + (0.5 * length - 20e-6) / radius, shape }];
+        scene
+    };
+    let scenes = [
+        ("rigid", weightless(5e-6, 0.0)),
+        ("yielding", weightless(5e-6, 2e-9)),
+        ("edge inside", spall(DefectOn::Inner)),
+        ("edge outside", spall(DefectOn::Outer)),
+    ];
+    let mut failed = Vec::new();
+    for (what, scene) in scenes {
+        let mut simulation = simulation(scene);
+        let further = 6e-10;
+        let y = press(&mut simulation, 0.0, further);
+        let [y_of, stiffness] = ["shaft.y", STIFFNESSES[3]].map(|name| simulation.reference(name).unwrap());
+        let mut given = [f64::NAN];
+        simulation.directional_derivative(&[stiffness], &[y_of], &[1.0], &mut given).unwrap();
+        let step = 3e-3 * further;
+        let [below, above] = [-step, step].map(|step| {
+            simulation.set_reals(&[y_of], &[y + step]).unwrap();
+            reals(&mut simulation, &[stiffness])[0]
+        });
+        let expected = (above - below) / (2.0 * step);
+        // The difference of the derivative over a hundredth of the approach leaves out 3e-5, what is near the edge up
+        // to ten times that, as its tangent is a difference itself.
+        if (given[0] - expected).abs() > 3e-4 * expected.abs() {
+            failed.push(format!("{what}: {} given, {expected} found", given[0]));
+        }
+        assert!(expected < 0.0, "{what}: deeper is stiffer, {expected}");
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+#[test]
+fn weights_of_balls_in_a_clearance_of_a_millimetre_follow_it_as_their_derivative_says() {
+    let bearing = Bearing { radial_clearance: 1.1e-3, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
+    let scene = Scene::builder(bearing).shaft(Ring::hosted()).housing(Ring::fixed()).law(ContactLaw::Hertz);
+    let mut simulation = simulation(scene.gravity([0.0, -9.81]).build().unwrap());
+    let unknowns: Vec<u32> =
+        (1..=9).map(|j| simulation.reference(&format!("element[{j}].force.inner")).unwrap()).collect();
+    let clearance = simulation.reference("bearing.radial_clearance").unwrap();
+    simulation.set("shaft.x", 5e-4).unwrap();
+    simulation.set("shaft.y", 3e-4).unwrap();
+    let mut wrong = 0.0f64;
+    for k in 0..12 {
+        simulation.set("cage.initial_angle", 0.05 * f64::from(k)).unwrap();
+        let mut given = [f64::NAN; 9];
+        simulation.directional_derivative(&unknowns, &[clearance], &[1.0], &mut given).unwrap();
+        let (at, step) = (1.1e-3, 1e-7);
+        let [below, above] = [-step, step].map(|step| {
+            simulation.set_reals(&[clearance], &[at + step]).unwrap();
+            reals(&mut simulation, &unknowns)
+        });
+        simulation.set_reals(&[clearance], &[at]).unwrap();
+        for i in 0..9 {
+            let expected = (above[i] - below[i]) / (2.0 * step);
+            wrong = wrong.max((given[i] - expected).abs());
+        }
+    }
+    // Positions of a millimetre are known to 2e-19 m, which 2e6 N/m make 4e-13 N. Of four differences three times as
+    // much is left over a hundredth of the 5 nm by which the least ball is pressed in: 0.03 N/m, twice.
+    assert!(wrong < 5e-2, "{wrong} N/m");
+}
+
+/// Where the balance of a roller lies between two neighbouring numbers of its path, less touches it at one than at the
+/// other. Its path follows the ring that carries it.
+#[test]
+fn straight_rollers_that_rest_on_the_inner_ring_follow_it_at_every_cage_angle() {
+    let mut scene = shipped("nu205-healthy");
+    let roller = Roller { length: 9e-3, profile: RollerProfile::Straight, laminae: Roller::LAMINAE };
+    scene.bearing.element = RollingElement::CylindricalRoller(roller);
+    scene.contact.damping = Damping::Proportional(1.25e-5);
+    (scene.shaft, scene.housing) = (Ring::hosted(), Ring::fixed());
+    (scene.shaft_speed, scene.recorder) = (std::f64::consts::TAU, None);
+    scene.sensors.clear();
+    let count = scene.bearing.element_count;
+    let mut simulation = simulation(scene);
+    let paths: Vec<u32> = (1..=count).map(|j| simulation.reference(&format!("element[{j}].path")).unwrap()).collect();
+    simulation.set("shaft.x", 4e-6).unwrap();
+    // Of 0.03 N of weight a damper of 1.25e-5 s bears more from one number to the next.
+    simulation.set("shaft.vy", 1e-3).unwrap();
+    let y = simulation.reference("shaft.y").unwrap();
+    let (mut carried, step) = (0, 1e-10);
+    for k in 0..24 {
+        simulation.set("cage.initial_angle", f64::from(k) * std::f64::consts::TAU / 24.0).unwrap();
+        let mut given = vec![f64::NAN; count];
+        simulation.directional_derivative(&paths, &[y], &[1.0], &mut given).unwrap();
+        let [below, at, above] = [-step, 0.0, step].map(|y_now| {
+            simulation.set_reals(&[y], &[y_now]).unwrap();
+            reals(&mut simulation, &paths)
+        });
+        simulation.set_reals(&[y], &[0.0]).unwrap();
+        for j in 0..count {
+            let sides = [(at[j] - below[j]) / step, (above[j] - at[j]) / step];
+            // A roller that begins to be carried has two derivatives.
+            if (sides[0] - sides[1]).abs() > 1e-3 {
+                continue;
+            }
+            let expected = 0.5 * (sides[0] + sides[1]);
+            // A path of 30 µm is known to 3e-21 m, and the ring's distance curves over its play: 1e-10/0.02.
+            assert!((given[j] - expected).abs() < 1e-4, "angle {k}, roller {j}: {} {expected}", given[j]);
+            carried += usize::from(expected.abs() > 0.1);
+        }
+    }
+    assert!(carried > 24, "{carried}");
 }

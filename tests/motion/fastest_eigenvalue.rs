@@ -3,7 +3,7 @@
 
 use crate::support::{Named, shipped};
 use brinell::dynamics::derivatives::{Fastest, Jacobian};
-use brinell::dynamics::parameters::{Drive, Model, Quadratic};
+use brinell::dynamics::parameters::{Excitation, Model, Quadratic};
 use brinell::scene::{Damping, Motion, Scene, Sensor};
 use brinell::simulation::Method;
 use brinell::simulation::setup::build_model;
@@ -78,7 +78,7 @@ fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
     let model = build_model(scene, &Surface::load_all(scene, None).unwrap(), None).unwrap();
     let layout = model.layout;
     let cage = Quadratic([0.0, draw.between(1.0, 300.0), 0.0]);
-    let drive = Drive { cage_start: TAU * draw.part(), cage, ..Drive::default() };
+    let excitation = Excitation { cage_start: TAU * draw.part(), cage, ..Excitation::default() };
     let squeeze = draw.between(1e-8, 50e-6);
     let velocity = draw.or_zero(1e-5, 1.0);
     let mut state = vec![0.0; layout.len];
@@ -95,13 +95,13 @@ fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
         }
     }
     for j in 0..model.element_count {
-        let angle = drive.cage_start + model.element_offset(j);
+        let angle = excitation.cage_start + model.element_offset(j);
         let pressed = reach * (cos * angle.cos() + sin * angle.sin()) - model.radial_clearance;
-        state[j] += model.resting_path(j, drive.cage_start) + 0.5 * pressed.max(0.0);
+        state[j] += model.resting_path(j, excitation.cage_start) + 0.5 * pressed.max(0.0);
     }
-    let cells = model.cells_at(&drive, 0.0, &vec![0.0; model.layout.len]);
+    let cells = model.cells_at(&excitation, 0.0, &vec![0.0; model.layout.len]);
     let mut jacobian = Jacobian::new(&model);
-    model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; layout.len]);
+    model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; layout.len]);
     (model, jacobian)
 }
 

@@ -4,7 +4,7 @@
 
 use crate::support::{Named, shipped};
 use brinell::dynamics::contacts::Forces;
-use brinell::dynamics::parameters::{Cells, Drive, Model, Quadratic, film};
+use brinell::dynamics::parameters::{Cells, Excitation, Model, Quadratic, film};
 use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio, speed_factor};
 use brinell::scene::{Film, Motion, Ring, Scene};
 use brinell::simulation::Simulation;
@@ -18,20 +18,20 @@ fn oiled() -> Scene {
 }
 
 /// One element between rings that stand, without weight; films are as at this speed (rad/s).
-fn alone(speed: f64) -> (Model, Drive) {
+fn alone(speed: f64) -> (Model, Excitation) {
     let mut scene = oiled();
     (scene.defects, scene.sensors) = (Vec::new(), Vec::new());
     (scene.shaft, scene.housing) = (Ring::fixed(), Ring::fixed());
     (scene.gravity, scene.bearing.element_count, scene.cage.initial_angle) = ([0.0; 2], 1, 0.3);
-    (Model::smooth(&scene), Drive { relative_speed: Quadratic::constant(speed), ..Drive::default() })
+    (Model::smooth(&scene), Excitation { relative_speed: Quadratic::constant(speed), ..Excitation::default() })
 }
 
 /// Forces of both contacts of the element at path `u` and radial velocity `w`, and its acceleration.
-fn at(model: &Model, drive: &Drive, u: f64, w: f64) -> [f64; 3] {
+fn at(model: &Model, excitation: &Excitation, u: f64, w: f64) -> [f64; 3] {
     let mut state = vec![0.0; model.layout.len];
     (state[0], state[model.layout.radial_velocity]) = (u, w);
     let (mut rate, mut forces) = (vec![0.0; state.len()], Forces::new(1));
-    model.derivative(drive, 0.0, &Cells::smooth(1, 0), &state, &mut rate, &mut forces);
+    model.derivative(excitation, 0.0, &Cells::smooth(1, 0), &state, &mut rate, &mut forces);
     [forces.contacts.inner[0], forces.contacts.outer[0], rate[model.layout.radial_velocity]]
 }
 
@@ -46,13 +46,13 @@ fn films(speed: f64) -> [(f64, f64); 2] {
 
 #[test]
 fn a_gap_that_closes_evenly_resists_as_the_closed_form_says_on_both_raceways() {
-    let (model, drive) = alone(TAU * 10.0);
+    let (model, excitation) = alone(TAU * 10.0);
     let [(inner, h_inner), (outer, h_outer)] = films(TAU * 10.0);
-    let films_now = model.films_at(&drive, 0.0);
+    let films_now = model.films_at(&excitation, 0.0);
     assert!((model.radial_clearance - model.clearance(films_now.as_ref()) - h_inner - h_outer).abs() < 1e-18);
     for u in [-4e-6, -2e-6, -0.3e-6] {
         for w in [0.01, 0.2, -0.03] {
-            let [force_in, force_out, acceleration] = at(&model, &drive, u, w);
+            let [force_in, force_out, acceleration] = at(&model, &excitation, u, w);
             // Of the clearance the films leave 5 µm less their thickness.
             let gap_in = 5e-6 - h_inner - h_outer + u + h_inner;
             let expected = if w > 0.0 { [0.0, outer * w / (h_outer - u)] } else { [inner * -w / gap_in, 0.0] };
@@ -69,14 +69,14 @@ fn a_gap_that_closes_evenly_resists_as_the_closed_form_says_on_both_raceways() {
 #[test]
 fn a_loose_element_stops_where_the_stopping_law_says() {
     // m dv/dt = −c v/g and dg/dt = −v: g falls to g₀ e^(−m v₀/c), whatever the film's thickness is counted into g.
-    let (model, drive) = alone(TAU * 10.0);
+    let (model, excitation) = alone(TAU * 10.0);
     let [_, (c, h)] = films(TAU * 10.0);
     for (start, speed) in [(4e-6, 0.01), (2e-6, 0.05)] {
         let (mut u, mut w) = (-start, speed);
         // Classical Runge–Kutta, a hundredth of the gap's own time m g/c and less.
         let step = 2e-8;
         for _ in 0..60_000 {
-            let rate = |u: f64, w: f64| (w, at(&model, &drive, u, w)[2]);
+            let rate = |u: f64, w: f64| (w, at(&model, &excitation, u, w)[2]);
             let a = rate(u, w);
             let b = rate(u + 0.5 * step * a.0, w + 0.5 * step * a.1);
             let d = rate(u + 0.5 * step * b.0, w + 0.5 * step * b.1);
@@ -92,12 +92,12 @@ fn a_loose_element_stops_where_the_stopping_law_says() {
 
 #[test]
 fn an_opening_gap_is_not_held() {
-    let (model, drive) = alone(TAU * 10.0);
+    let (model, excitation) = alone(TAU * 10.0);
     for u in [-4e-6, -1e-6, -1e-9] {
-        assert_eq!(at(&model, &drive, u, -0.1)[1], 0.0);
+        assert_eq!(at(&model, &excitation, u, -0.1)[1], 0.0);
     }
     for u in [-1e-9, -1e-6] {
-        assert_eq!(at(&model, &drive, u, 0.1)[0], 0.0);
+        assert_eq!(at(&model, &excitation, u, 0.1)[0], 0.0);
     }
 }
 

@@ -8,6 +8,8 @@ mod counting;
 mod defect_lines;
 mod defects_anywhere;
 mod derivatives;
+#[path = "../element_inertia/mod.rs"]
+mod element_inertia;
 mod exactness;
 mod fastest_eigenvalue;
 mod film;

@@ -46,7 +46,7 @@ fn standing(scene: &Scene, cage_angle: f64) -> Named {
 /// Moves the state by a mode's shape times `size` (m), by way of the state's bytes, which hold it bit by bit.
 fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
     let here = bearing.0.state_vector().to_vec();
-    let (model, drive) = bearing.0.equations();
+    let (model, excitation) = bearing.0.equations();
     let layout = model.layout;
     let [re, im] = mode.eigenvalues[0];
     // Real parts of the displacement a e^(iφ) and of λ times it.
@@ -72,7 +72,7 @@ fn disturb(bearing: &mut Named, mode: &Mode, size: f64) {
     // The element's velocity in the state is the absolute one, its path is seen from the outer ring.
     if let Some(start) = layout.housing {
         for j in 0..model.element_count {
-            let angle = drive.cage_angle(0.0) + model.element_offset(j);
+            let angle = excitation.cage_angle(0.0) + model.element_offset(j);
             moved[layout.radial_velocity + j] += angle.cos() * moved[start + 2] + angle.sin() * moved[start + 3];
         }
     }
@@ -243,11 +243,11 @@ fn eigenvalues_sum_to_the_trace() {
             .map(|mode| mode.eigenvalues.iter().map(|[re, im]| if *im > 0.0 { 2.0 * re } else { *re }).sum::<f64>())
             .sum();
         let bearing = standing(&scene, angle);
-        let (model, drive) = bearing.0.equations();
+        let (model, excitation) = bearing.0.equations();
         let mut jacobian = Jacobian::new(model);
         let state = bearing.0.state_vector();
-        let cells = model.cells_at(&drive, 0.0, state);
-        model.linearize(&drive, 0.0, &cells, state, &mut jacobian, &mut vec![0.0; state.len()]);
+        let cells = model.cells_at(&excitation, 0.0, state);
+        model.linearize(&excitation, 0.0, &cells, state, &mut jacobian, &mut vec![0.0; state.len()]);
         let matrix = jacobian.matrix(state.len());
         let trace: f64 = (0..state.len()).map(|i| matrix[i][i]).sum();
         // Roundings of eigenvalues, which are up to a hundred times the sum.

@@ -258,7 +258,7 @@ fn a_step_that_is_inspected_and_parted_records_what_a_plain_one_does() {
             for (run, nudge) in [(&mut inspected, 0.0), (&mut parted, 1e-9)] {
                 let mut under_way = run.0.begin_step(1e-3).unwrap();
                 while !under_way.is_done() {
-                    run.0.go_on(&mut under_way).unwrap();
+                    run.0.advance_once(&mut under_way).unwrap();
                     let inspection = run.0.inspect(&under_way);
                     let mut value = [0.0];
                     run.0.reals(&[speed], &mut value).unwrap();

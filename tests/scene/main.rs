@@ -1,5 +1,6 @@
 //! What scenes and profiles may say, and what is said of those that may not be.
 
+mod answers;
 mod bad_profile;
 mod bad_scene;
 mod good_scene;

@@ -10,7 +10,7 @@
 use crate::machine::{RATE, scene, signal};
 use brinell::geometry::kinematics::{self, Frequencies};
 use brinell::scene::{Bearing, Scene};
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Fault, size};
 use brinell_analysis::spectrum::{self, Band, Spectrum};
 use brinell_analysis::statistics::median;
@@ -100,7 +100,8 @@ fn read(line: &str, folder: &Path) -> Known {
     };
     let number = |text: &str| text.parse::<f64>().unwrap();
     let (speed, rate) = (number(speed), number(rate));
-    let source = Source { rate: Some(rate), speed: Speed::Constant(speed), signal: None };
+    let text = TextFormat::default();
+    let source = Source { rate: Some(rate), speed: Speed::Constant(speed), signal: None, text };
     Known {
         rig: rig.to_owned(),
         fault: match fault {

@@ -20,8 +20,8 @@ pub fn cells_kept(scene: Scene) -> [usize; 2] {
     let (mut inside, mut differ) = (0, 0);
     for _ in 0..400 {
         bearing.0.step(7.3e-5).unwrap();
-        let (model, drive) = bearing.0.equations();
-        let there = model.cells_at(&drive, 0.0, bearing.0.state_vector());
+        let (model, excitation) = bearing.0.equations();
+        let there = model.cells_at(&excitation, 0.0, bearing.0.state_vector());
         let kept = bearing.0.cells();
         differ += there.iter().zip(kept.iter()).filter(|(a, b)| a != b).count();
         inside += kept.iter().filter(|&&cell| cell != SMOOTH).count();

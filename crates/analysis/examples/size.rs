@@ -1,7 +1,7 @@
 //! Sizes the spall in recordings of one bearing and prints the report as JSON:
 //! `cargo run --release -p brinell-analysis --example size -- SCENE RATE_HZ FILE@SPEED_HZ…`
 
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::size;
 use std::error::Error;
 use std::path::Path;
@@ -14,7 +14,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut recordings = Vec::new();
     for file in files {
         let (path, speed) = file.rsplit_once('@').ok_or("FILE@SPEED_HZ")?;
-        let source = Source { rate: Some(rate), speed: Speed::Constant(speed.parse()?), signal: None };
+        let text = TextFormat::default();
+        let source = Source { rate: Some(rate), speed: Speed::Constant(speed.parse()?), signal: None, text };
         recordings.push(Recording::read(Path::new(path), &source)?);
     }
     println!("{}", serde_json::to_string_pretty(&size(&recordings, &scene)?)?);

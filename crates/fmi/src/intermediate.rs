@@ -29,7 +29,7 @@ pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     let mut under_way = instance.simulation.begin_step(step)?;
     let mut early = false;
     while !under_way.is_done() {
-        instance.simulation.go_on(&mut under_way)?;
+        instance.simulation.advance_once(&mut under_way)?;
         let inspection = instance.simulation.inspect(&under_way);
         let time = if under_way.is_done() && !early { whole.time } else { point + under_way.elapsed() };
         // Rounding may not lead beyond the step.
@@ -37,7 +37,7 @@ pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
         let wanted = update(instance, Instants { from: point, time, to: whole.time }, under_way.is_done())?;
         instance.simulation.resume(&mut under_way, inspection)?;
         if let Some(at) = wanted {
-            under_way.bring_forward(at - point);
+            under_way.shorten_to(at - point);
             early |= at < whole.time;
         }
     }

@@ -1,6 +1,6 @@
 //! Scenes in TOML files, for people: every key carries its unit, which is converted to SI units here and nowhere else.
 //!
-//! [`from_toml`] reads a file into a checked [`Scene`]; what it refuses is told all at once, each fault with its line,
+//! [`from_toml`] reads a file into a checked [`Scene`]; what it refuses it reports at once, each fault with its line,
 //! its value, the limit, and the nearest word that is known. [`unit_questions`] asks about values that look as if they
 //! were in another unit.
 

@@ -143,31 +143,38 @@ def run(
 
 def size(
     recordings: PathLike | Iterable[PathLike],
-    scene: PathLike,
+    scene: PathLike | None = None,
     *,
-    speed: float | Iterable[float] | None = None,
+    bearing: str | None = None,
+    load: float | None = None,
+    speed: float | str | Iterable[float | str] | None = None,
     rate: float | None = None,
     tacho: str | None = None,
     pulses: int = 1,
     speed_column: str | None = None,
-    column: str | None = None,
+    channel: str | int | None = None,
+    column: str | int | None = None,
+    delimiter: str | None = None,
+    decimal: str | None = None,
     output: PathLike | None = None,
 ) -> dict[str, Any]:
-    """Length of a spall from recordings of one bearing (.csv, .txt, .npy or .wav), or why there is none.
+    """Length of a spall from recordings of one bearing (.csv, .txt, .npy, .npz, .mat or .wav), or why there is none.
 
-    One of ``speed`` [Hz] (for all recordings or for each), ``tacho`` and ``speed_column`` tells how the shaft turns;
-    ``rate`` [Hz] and ``column`` say what a file does not. Gives what ``brinell size`` prints as JSON; averaged passages
-    are kept where ``output`` names a folder.
+    ``scene`` describes the bearing, or ``bearing`` names one of the catalogue and ``load`` [N] what it carries. One of
+    ``speed`` ([Hz], or "1797rpm"; for all recordings or for each), ``tacho`` and ``speed_column`` says how the shaft
+    turns; ``rate`` [Hz], ``channel`` (or by its older name ``column``), ``delimiter`` and ``decimal`` say what a file
+    does not. Gives what ``brinell size`` prints as JSON; averaged passages are kept where ``output`` names a folder.
     """
     files = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
-    speeds = "" if speed is None else repr(speed) if isinstance(speed, (int, float)) else ",".join(map(repr, speed))
+    speeds = [] if speed is None else [speed] if isinstance(speed, (int, float, str)) else list(speed)
     given = {
-        "speed": speeds, "rate": "" if rate is None else repr(rate), "tacho": tacho, "speed-column": speed_column,
-        "column": column, "pulses": str(pulses) if tacho is not None else "",
+        "scene": scene and os.fspath(scene), "bearing": bearing, "load": load, "speed": ",".join(map(str, speeds)),
+        "rate": rate, "tacho": tacho, "pulses": pulses if tacho is not None else None, "speed-column": speed_column,
+        "channel": column if channel is None else channel, "delimiter": delimiter, "decimal": decimal,
     }  # fmt: skip
-    options = [f"--{name}={value}" for name, value in given.items() if value]
+    options = [f"--{name}={value}" for name, value in given.items() if value not in (None, "")]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        words = ["--scene", os.fspath(scene), "--no-figure", "--output", os.fspath(output or folder), *options]
+        words = ["--no-figure", "--output", os.fspath(output or folder), *options]
         report: dict[str, Any] = json.loads(_ask("size", *words, "--", *(os.fspath(file) for file in files)))
     return report
 

@@ -65,7 +65,7 @@ impl Command {
         match self {
             Command::Build(options) => build(project, options),
             Command::Run(options) => {
-                let model = Model::read(&options.scene)?;
+                let model = options.model()?;
                 let wanted = options.options(&model.scene.experiment)?;
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, &wanted, &folder)
@@ -104,16 +104,7 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("contact"));
                 contact::command(project, &options.scene, &wanted, &folder)
             }
-            Command::Size(options) => {
-                let wanted = size::Options {
-                    rate: options.rate,
-                    speeds: options.speeds(),
-                    column: options.column.clone(),
-                    figure: !options.no_figure,
-                };
-                let folder = options.output.unwrap_or_else(|| project.results("size"));
-                size::command(project, &options.scene, &options.recordings, &wanted, &folder)
-            }
+            Command::Size(options) => size(project, options),
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
@@ -160,7 +151,21 @@ fn build(project: &Project, options: Build) -> Result<()> {
     Ok(())
 }
 
-/// What the commands that sweep the cage angle are told.
+fn size(project: &Project, options: Size) -> Result<()> {
+    let wanted = size::Options {
+        rate: options.rate,
+        speeds: options.speeds(),
+        channel: options.channel.clone(),
+        text: options.text(),
+        report: options.report.clone(),
+        figure: !options.no_figure,
+    };
+    let bearing = options.bearing();
+    let folder = options.output.unwrap_or_else(|| project.results("size"));
+    size::command(project, &bearing, &options.recordings, &wanted, &folder)
+}
+
+/// Options of the commands that sweep the cage angle.
 fn swept(load: Option<f64>, points: Option<u32>, no_figure: bool) -> stiffness::Options {
     stiffness::Options { load, points: points.map(|count| count as usize), figure: !no_figure }
 }

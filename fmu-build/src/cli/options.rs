@@ -1,21 +1,21 @@
-//! What each command can be told.
+//! Options of each command.
 
 use std::env;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use brinell::scene::Experiment;
-use brinell_analysis::recording::Speed;
+use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
 
-use crate::commands::{Spall, contact};
-use crate::package::library;
+use crate::commands::{Spall, contact, new_scene, size};
+use crate::package::{Model, library};
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
 use crate::shared::Version;
-use crate::shared::{Grid, number, seed, whole};
+use crate::shared::{Grid, delimiter, number, seed, speed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -40,9 +40,17 @@ pub struct Build {
 
 /// Options of `run`.
 #[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("what").required(true))]
 pub struct Run {
     /// Scene file (TOML), or the name of a shipped scene
-    pub(super) scene: PathBuf,
+    #[arg(group = "what")]
+    pub(super) scene: Option<PathBuf>,
+    /// Instead of a scene a bearing that `brinell catalogue` lists, as `brinell new` writes its scene
+    #[arg(long, value_name = "NAME", group = "what")]
+    pub(super) bearing: Option<String>,
+    /// Its spall: outer, inner or element, a colon and its length in mm or deg [default: none]
+    #[arg(long, value_name = "inner:1.2mm", requires = "bearing")]
+    pub(super) defect: Option<Spall>,
     /// Stop time in seconds [default: the scene's]
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     pub(super) stop: Option<f64>,
@@ -99,6 +107,14 @@ pub struct Run {
 }
 
 impl Run {
+    pub(super) fn model(&self) -> Result<Model> {
+        let Some(scene) = &self.scene else {
+            let bearing = self.bearing.as_deref().unwrap_or_default();
+            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref())?, bearing);
+        };
+        Model::read(scene)
+    }
+
     pub(super) fn options(&self, experiment: &Experiment) -> Result<run::Options> {
         let profile = self.speed_profile.as_deref().map(SpeedProfile::read).transpose()?;
         let stop = self.stop.or(profile.as_ref().map(SpeedProfile::end));
@@ -134,7 +150,7 @@ pub struct Sweep {
     pub(super) jobs: Option<u32>,
     /// Write the signals of each run as well [default format: npy]
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
-    pub(super) signals: Option<sweep::Written>,
+    pub(super) signals: Option<sweep::SignalFormat>,
     /// Make part K of N only, on any machine; the same command without it joins all parts in the folder
     #[arg(long, value_name = "K/N")]
     pub(super) part: Option<sweep::Part>,
@@ -232,24 +248,31 @@ pub struct Contact {
 /// Options of `size`.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("shaft").required(true))]
+#[command(group = clap::ArgGroup::new("which").required(true))]
 pub struct Size {
-    /// Recordings of one bearing: .csv, .txt, .npy or .wav
+    /// Recordings of one bearing: .csv, .txt, .npy, .npz, .mat or .wav
     #[arg(required = true, value_name = "RECORDING")]
     pub(super) recordings: Vec<PathBuf>,
     /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is ignored
-    #[arg(long)]
-    pub(super) scene: PathBuf,
+    #[arg(long, group = "which")]
+    pub(super) scene: Option<PathBuf>,
+    /// Instead of a scene a bearing that `brinell catalogue` lists; nothing is known of its rig
+    #[arg(long, value_name = "NAME", group = "which")]
+    pub(super) bearing: Option<String>,
+    /// Load of that bearing in newtons [default: 5 % of the static rating]
+    #[arg(long, value_name = "N", requires = "bearing", allow_negative_numbers = true, value_parser = number)]
+    pub(super) load: Option<f64>,
     /// Sampling rate in hertz [default: the file's own]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub(super) rate: Option<f64>,
-    /// Shaft speed in hertz: one for all recordings, or one for each, separated by commas
+    /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas
     #[arg(
         long,
         value_name = "HZ",
         value_delimiter = ',',
         group = "shaft",
         allow_negative_numbers = true,
-        value_parser = number,
+        value_parser = speed,
     )]
     pub(super) speed: Vec<f64>,
     /// Column of a tachometer, by name or by number from 1
@@ -267,9 +290,19 @@ pub struct Size {
     /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
     #[arg(long, value_name = "COLUMN", group = "shaft")]
     pub(super) speed_column: Option<String>,
-    /// Column of the signal, by name or by number from 1 [default: the acceleration]
-    #[arg(long, value_name = "COLUMN")]
-    pub(super) column: Option<String>,
+    /// Channel of the signal, by name or by number from 1, where a file has several
+    #[arg(long, value_name = "NAME|NUMBER", alias = "column")]
+    pub(super) channel: Option<String>,
+    /// What stands between the columns of a text: a sign, tab or blank [default: a comma, of .txt blanks; a semicolon
+    /// with --decimal ,]
+    #[arg(long, value_name = "SIGN", value_parser = delimiter)]
+    pub(super) delimiter: Option<char>,
+    /// Decimal sign of a text, a point or a comma [default: .]
+    #[arg(long, value_name = "SIGN")]
+    pub(super) decimal: Option<char>,
+    /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
+    #[arg(long, value_name = "FILE.html")]
+    pub(super) report: Option<PathBuf>,
     /// Folder for averaged passages and figures [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
@@ -279,6 +312,17 @@ pub struct Size {
 }
 
 impl Size {
+    pub(super) fn bearing(&self) -> size::Bearing {
+        match (&self.scene, &self.bearing) {
+            (Some(scene), _) => size::Bearing::Scene(scene.clone()),
+            (None, name) => size::Bearing::Catalogue(name.clone().unwrap_or_default(), self.load),
+        }
+    }
+
+    pub(super) fn text(&self) -> TextFormat {
+        TextFormat { delimiter: self.delimiter, decimal: self.decimal }
+    }
+
     pub(super) fn speeds(&self) -> Vec<Speed> {
         if let Some(column) = &self.tacho {
             vec![Speed::Tachometer(column.clone(), self.pulses)]

@@ -9,6 +9,7 @@ pub mod new_scene;
 pub mod scenes;
 pub mod schema;
 pub mod size;
+mod size_report;
 pub mod stiffness;
 
 pub use contact::On;

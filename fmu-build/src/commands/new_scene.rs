@@ -4,6 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
+use brinell::scene::Scene;
 use brinell_scene_file::{CatalogueBearing, NotInCatalogue, catalogued};
 
 use super::schema;
@@ -35,12 +36,36 @@ impl FromStr for Spall {
     }
 }
 
+/// The bearing of this name.
+fn named(name: &str) -> Result<CatalogueBearing> {
+    Ok(catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() })?)
+}
+
+/// The scene of a bearing that is nowhere written down.
+pub(crate) fn unwritten(bearing: &str, spall: Option<&Spall>) -> Result<String> {
+    let bearing = named(bearing)?;
+    let name = format!("{}-{}", bearing.designation.to_lowercase(), spall.map_or("healthy", |spall| spall.on));
+    Ok(text(&name, &bearing, spall))
+}
+
+/// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
+pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
+    let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, None)?)?;
+    scene.sensors.clear();
+    match load {
+        Some(load) if !(load.is_finite() && load > 0.0) => bail!("--load {load} N: it must be finite and above 0"),
+        Some(load) => scene.shaft.load = [0.0, -load],
+        None => eprintln!(
+            "note: {bearing}: a load of {:.0} N is assumed, 5 % of the static rating; --load gives the real one",
+            scene.shaft.load[1].abs()
+        ),
+    }
+    Ok(scene)
+}
+
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
-    let Some(bearing) = catalogued(bearing) else {
-        bail!(NotInCatalogue { name: bearing.to_owned() });
-    };
-    let text = text(name, &bearing, spall);
+    let text = text(name, &named(bearing)?, spall);
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     let path = folder.join(format!("{name}.toml"));

@@ -8,11 +8,31 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use brinell::scene::Scene;
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
+use brinell_analysis::spectra::Fault;
 
+use super::{new_scene, size_report};
 use crate::package::read_scene;
 use crate::shared::{Project, Python, contact_map, csv, digits, whole_file};
+
+/// Where the bearing and its load come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Bearing {
+    /// A scene, by its file or its name.
+    Scene(PathBuf),
+    /// The catalogue, and the load (N) where it is known.
+    Catalogue(String, Option<f64>),
+}
+
+impl Bearing {
+    fn scene(&self) -> Result<Scene> {
+        match self {
+            Bearing::Scene(path) => Ok(read_scene(path)?.1),
+            Bearing::Catalogue(name, load) => new_scene::without_rig(name, *load),
+        }
+    }
+}
 
 /// What the user says.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,20 +42,24 @@ pub struct Options {
     /// Shaft speed of all recordings, or of each.
     pub speeds: Vec<Speed>,
     /// Column of the signal, by name or number.
-    pub column: Option<String>,
+    pub channel: Option<String>,
+    /// How texts are written.
+    pub text: TextFormat,
     /// Whether to draw.
     pub figure: bool,
+    /// File of a page that shows what the answer rests on.
+    pub report: Option<PathBuf>,
 }
 
 /// The command: prints the report, and writes `<folder>/<recording>-size.csv`, `.json` and, if wanted, figures.
 pub fn command(
     project: &Project,
-    scene: &Path,
+    bearing: &Bearing,
     recordings: &[PathBuf],
     options: &Options,
     folder: &Path,
 ) -> Result<()> {
-    let (_, scene) = read_scene(scene)?;
+    let scene = bearing.scene()?;
     let recordings = read(recordings, options)?;
     for r in &recordings {
         // Times that are read as numbers leave some 1e-13 of the rate over.
@@ -43,13 +67,20 @@ pub fn command(
         eprintln!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
     }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
-    let report = size_with(&recordings, &scene, &maps, &mut |done| eprintln!("{}", line(done)))?;
-    if recordings.len() > 1 {
-        eprintln!("{}", together(&report));
-    }
+    let report = size_with(&recordings, &scene, &maps, &mut |done| {
+        // Of one recording the answer says it all.
+        if recordings.len() > 1 {
+            eprintln!("{}: {}", done.name, of_recording(done));
+        }
+    })?;
+    eprintln!("{}", answer(&report));
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
     let stems = write(&report, folder)?;
+    if let Some(path) = &options.report {
+        whole_file::write(path, size_report::page(&report, &recordings, &scene, &answer(&report))?)?;
+        eprintln!("{}", path.display());
+    }
     if options.figure {
         Python::draw(project, "size.py", &stems);
     }
@@ -63,50 +94,55 @@ fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
     }
     let speeds = options.speeds.iter().cycle();
     let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
-        let source = Source { rate: options.rate, speed: speed.clone(), signal: options.column.clone() };
+        let source =
+            Source { rate: options.rate, speed: speed.clone(), signal: options.channel.clone(), text: options.text };
         Ok(Recording::read(path, &source)?)
     });
     recordings.collect()
 }
 
-/// What one recording gave, in a line: kind, how plainly, length or why there is none.
-fn line(done: &RecordingReport) -> String {
-    let RecordingReport { name, fault, grade, .. } = done;
-    let kind = match grade {
-        Grade::None => fault.name().to_owned(),
-        grade => format!("{}, {}", fault.name(), grade.name()),
-    };
-    match (done.length_deg, done.uncertainty_deg, done.at_least_deg) {
-        (Some(length), Some(uncertainty), _) => {
-            format!("{name}: {kind}: {length:.2} ± {uncertainty:.2} degrees, provisional: one speed")
-        }
-        (.., at_least) => {
-            let least = at_least.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
-            format!("{name}: {kind}; {least}: {}", done.reason.as_deref().unwrap_or("no reason given"))
-        }
-    }
-}
-
-/// What several recordings gave together, in a line.
-fn together(report: &Report) -> String {
-    let kind = report.fault.name();
-    match (report.length_deg, report.length_mm, report.uncertainty_mm, report.standing) {
-        (Some(degrees), Some(length), Some(uncertainty), Some(standing)) => {
-            let standing = match standing {
-                Standing::Firm => "firm: lengths at two speeds agree",
-                Standing::Provisional => "provisional: no two speeds that are far enough from each other agree",
-            };
-            let uncertainty = uncertainty * degrees / length;
-            format!("together: {kind}: {degrees:.2} ± {uncertainty:.2} degrees, {standing}")
+/// The answer in a line: which part, how long, how far to rely on it, why.
+fn answer(report: &Report) -> String {
+    let (part, why) = (part(report.fault), &report.reason);
+    match (report.length_mm, report.uncertainty_mm, report.length_deg, report.standing) {
+        (Some(length), Some(uncertainty), Some(degrees), Some(standing)) => {
+            let standing = if standing == Standing::Firm { "firm" } else { "provisional" };
+            format!("{part}: {length:.2} ± {uncertainty:.2} mm ({degrees:.2} degrees), {standing}: {why}")
         }
         _ => {
-            let least = report.at_least_deg.map_or(String::new(), |least| format!(", at least {least:.2} degrees"));
-            format!("together: {kind}; no length{least}")
+            let least =
+                report.at_least_deg.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
+            format!("{part}, {least}: {why}")
         }
     }
 }
 
-/// Averaged passages as CSV and what was found in them as JSON, each named when it is there; gives the files' stems.
+/// What one of several recordings gave.
+fn of_recording(done: &RecordingReport) -> String {
+    let part = match done.grade {
+        Grade::None => part(done.fault).to_owned(),
+        grade => format!("{}, {}", part(done.fault), grade.name()),
+    };
+    match (done.length_deg, done.uncertainty_deg, done.at_least_deg) {
+        (Some(length), Some(uncertainty), _) => format!("{part}: {length:.2} ± {uncertainty:.2} degrees"),
+        (.., least) => {
+            let least = least.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
+            format!("{part}, {least}: {}", done.reason.as_deref().unwrap_or("no reason given"))
+        }
+    }
+}
+
+fn part(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Outer => "outer raceway",
+        Fault::Inner => "inner raceway",
+        Fault::Element => "rolling element",
+        Fault::Undecided => "undecided which part",
+        Fault::None => "no fault found",
+    }
+}
+
+/// Averaged passages as CSV and what they show as JSON, each named when it is there; gives the files' stems.
 fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {

@@ -18,10 +18,10 @@ use crate::shared::digits;
 use variables::variables;
 
 const PAGE: &str = include_str!("../../assets/documentation.html");
-/// The coupling errors that the guide has measured; `masters` finds them.
+/// The coupling errors that the guide has measured, by co-simulation algorithm.
 const GUIDE: &str = include_str!("../../../docs/guide.md");
 /// How their table begins.
-const MASTERS: &str = "| bearing | master | the rotor is told |";
+const ALGORITHMS: &str = "| bearing | algorithm | the rotor gets |";
 
 /// Writes the page.
 ///
@@ -29,9 +29,6 @@ const MASTERS: &str = "| bearing | master | the rotor is told |";
 /// Of the page's template.
 pub fn write(model: &Model, version: Version) -> Result<String> {
     let scene = &model.scene;
-    let mut page = Environment::new();
-    page.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true).build()?);
-    page.set_formatter(escaped);
     let filled = context! {
         name => &scene.name,
         description => &scene.description,
@@ -44,12 +41,23 @@ pub fn write(model: &Model, version: Version) -> Result<String> {
             Version::Fmi2 => "fmi2GetRealOutputDerivatives",
             Version::Fmi3 => "fmi3GetOutputDerivatives",
         },
-        masters => masters(),
+        algorithms => algorithms(),
         methods => Method::automatic_in_words(),
         variables => variables(&model.simulation, version),
         scene => &model.scene_text,
     };
-    Ok(page.render_named_str("index.html", PAGE, filled)?)
+    html("index.html", PAGE, filled)
+}
+
+/// A template of HTML, filled.
+///
+/// # Errors
+/// Of the template.
+pub(crate) fn html(name: &str, template: &str, filled: Value) -> Result<String> {
+    let mut page = Environment::new();
+    page.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true).build()?);
+    page.set_formatter(escaped);
+    Ok(page.render_named_str(name, template, filled)?)
 }
 
 /// Values as text of an HTML page, unless they are marked as HTML themselves.
@@ -135,7 +143,7 @@ fn accelerometers(scene: &Scene) -> String {
     if all.is_empty() { "none".to_owned() } else { format!("on the housing, {}", all.join("; ")) }
 }
 
-/// What bears a defect, and what it is.
+/// What has a defect, and what it is.
 fn defect_row(defect: &Defect) -> (&'static str, String) {
     let on = match defect.on {
         DefectOn::Outer => "Defect of the outer raceway",
@@ -173,9 +181,9 @@ fn ring(ring: &Ring) -> String {
     }
 }
 
-/// The guide's table of masters: its rows of cells, as HTML.
-fn masters() -> Vec<Vec<String>> {
-    let rows = GUIDE.lines().skip_while(|row| !row.starts_with(MASTERS)).take_while(|row| row.starts_with('|'));
+/// The guide's table of co-simulation algorithms: its rows of cells, as HTML.
+fn algorithms() -> Vec<Vec<String>> {
+    let rows = GUIDE.lines().skip_while(|row| !row.starts_with(ALGORITHMS)).take_while(|row| row.starts_with('|'));
     let html = |text: &str| {
         // Words between grave accents are code.
         let mut parts = text.trim().split('`');
@@ -217,17 +225,17 @@ mod tests {
     }
 
     #[test]
-    fn the_page_of_a_hosted_ring_says_which_force_is_for_which_master() {
+    fn the_page_of_a_hosted_ring_says_which_force_is_for_which_algorithm() {
         let page = page("6205-hosted");
-        // Both bearings by seven masters, below one heading.
+        // Both bearings by seven algorithms, below one heading.
         let rows: Vec<&str> =
             page.lines().filter(|row| row.starts_with("<tr><t") && row.contains(" µs</th>")).collect();
         assert_eq!(rows.len(), 1, "{rows:?}");
-        for (master, count) in [("<td>parallel</td>", 8), ("<td>sequential</td>", 6)] {
-            assert_eq!(page.matches(master).count(), count, "{master}");
+        for (algorithm, count) in [("<td>parallel</td>", 8), ("<td>sequential</td>", 6)] {
+            assert_eq!(page.matches(algorithm).count(), count, "{algorithm}");
         }
         assert!(page.contains("<td><code>mean_force</code>, held</td>"));
-        // A ring that moves under forces is wired to no master.
+        // A ring that moves under forces is wired to no algorithm.
         assert!(!self::page("6205-healthy").contains("<td>parallel</td>"));
     }
 

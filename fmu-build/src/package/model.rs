@@ -57,7 +57,7 @@ pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
     of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
-/// Asks about the depths of a profile that were probably meant in another unit. What is wrong with it is told where it
+/// Asks about the depths of a profile that were probably meant in another unit. Errors in it are reported where it
 /// is read.
 pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
     let names = |defect: &&Defect| matches!(&defect.shape, DefectShape::Profile(named) if named == name);
@@ -83,7 +83,7 @@ pub struct SceneFiles {
     pub profiles: Vec<Profile>,
 }
 
-/// Reads a scene as [`read_scene`] does, and the profiles beside it; what is unusual in it is told.
+/// Reads a scene as [`read_scene`] does, and the profiles beside it; what is unusual in it is noted.
 pub fn read_all(path: &Path) -> Result<SceneFiles> {
     let (text, scene) = read_scene(path)?;
     for remark in remarks(&text, &scene) {
@@ -100,8 +100,18 @@ pub fn read_all(path: &Path) -> Result<SceneFiles> {
 impl Model {
     /// Reads a scene file, or a shipped scene by its name, and the profile beside it. An error names the file.
     pub fn read(path: &Path) -> Result<Self> {
-        let about = || path.display().to_string();
-        let SceneFiles { text: scene_text, scene, profiles } = read_all(path)?;
+        Self::of_files(read_all(path)?, &path.display().to_string())
+    }
+
+    /// A scene of this text, which names no other files; `about` names it in messages.
+    pub fn of_text(text: String, about: &str) -> Result<Self> {
+        let scene = brinell_scene_file::from_toml(&text).with_context(|| about.to_owned())?;
+        Self::of_files(SceneFiles { text, scene, profiles: Vec::new() }, about)
+    }
+
+    fn of_files(files: SceneFiles, about: &str) -> Result<Self> {
+        let about = || about.to_owned();
+        let SceneFiles { text: scene_text, scene, profiles } = files;
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
         let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;

@@ -4,7 +4,7 @@
 //! `<name>_ref.csv`, `<name>_in.csv` and `<name>_ref.opt`. An FMU of FMI 3.0 holds them as well, described by the
 //! layered standard FMI-LS-REF 1.0.0-alpha.1 in `extra/org.fmi-standard.fmi-ls-ref`.
 //!
-//! The run is the scene's default experiment. Inputs stand at their start values, but for a shaft that a host moves: at
+//! The run is the scene's default experiment. Inputs stand at their start values, except of a shaft that hosts move: at
 //! its start value it would hang in the clearance and touch nothing. It goes down through the clearance until the
 //! elements are pressed, and back, y = −D (1 − cos 2πt/T)/2, with the velocity and acceleration that belong to it.
 //! Inputs are set at each communication point, as importers do that do not interpolate.

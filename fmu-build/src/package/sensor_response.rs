@@ -1,6 +1,6 @@
 //! `sensor.response` of a scene file: modes are fitted to the file it names and take its place in the scene's text, so
 //! that FMU and simulations know modes only, and everyone sees them. They stand in its line: what is wrong further down
-//! is told with the line that it has in the file.
+//! is reported with the line that it has in the file.
 
 use anyhow::{Context, Error, Result, anyhow, bail};
 use brinell::scene::SensorMode;
@@ -96,7 +96,7 @@ mod tests {
         let mode = scene.sensors[0].modes[0];
         assert!(scene.sensors[0].modes.len() == 1 && (mode.frequency - MODE.frequency).abs() < 1e-6, "{mode:?}");
         assert!(text.contains("1 modes fitted to \"frf.csv\"") && text.contains("\n[solver]"), "{text}");
-        // What follows is told with its line in the file.
+        // What follows is reported with its line in the file.
         let spoilt = named("response = \"frf.csv\"").replace("stop_s = ", "stop_s = -");
         let line = 1 + spoilt.lines().position(|line| line.starts_with("stop_s")).unwrap();
         let said = brinell_scene_file::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();

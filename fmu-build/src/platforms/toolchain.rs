@@ -19,7 +19,7 @@ pub const OLDEST_MACOS: &str = "11.0";
 /// The name by which macOS would look for the library, were it linked to and not loaded by its path.
 const INSTALL_NAME: &str = "@rpath/brinell_fmi.dylib";
 
-/// What cargo is told to compile for one target.
+/// How cargo compiles for one target.
 #[derive(Debug, Clone, Default)]
 pub struct Toolchain {
     /// Variables of cargo's environment.

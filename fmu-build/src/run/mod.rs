@@ -1,10 +1,10 @@
-//! A run without a host: the simulation is stepped directly, its inputs at their start values but for the shaft's
+//! A run without a host: the simulation is stepped directly, its inputs at their start values except for the shaft's
 //! speed, where that has a profile.
 
 pub mod columns;
-pub(crate) mod course;
 pub mod noise;
 mod page;
+pub(crate) mod run_loop;
 pub mod signals;
 mod spectra;
 pub mod speed_profile;
@@ -21,8 +21,8 @@ use brinell::simulation::Simulation;
 use crate::package::{Model, Profile};
 use crate::shared::{Grid, Project, Python, digits, whole_file};
 use columns::Columns;
-use course::{Course, Done};
 use noise::Noise;
+use run_loop::{Done, RunLoop};
 use signals::Signals;
 use spectra::{Acceleration, Spectra};
 use speed_profile::SpeedProfile;
@@ -64,8 +64,8 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     spare_profiles(&model, &path)?;
     let chosen = chosen(&model.simulation, &options.columns)?;
     let columns = if options.figure || options.page { Columns::all(model.simulation.table()) } else { chosen.clone() };
-    let course = Course { grid: options.grid, profile: options.profile.as_ref() };
-    let done = course.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
+    let run_loop = RunLoop { grid: options.grid, profile: options.profile.as_ref() };
+    let done = run_loop.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
     let sensors = |signals: &Signals| signals.indices(|name| shows_a_sensor(&model.scene, name));
     if let Some(noise) = &options.noise {
         noise.add(&done.signals, &sensors(&done.signals), 0)?;

@@ -113,7 +113,7 @@ impl Signals {
         Ok(columns)
     }
 
-    /// Lets `by` change each row, whose number it is told.
+    /// Lets `by` change each row; it gets the number of the row.
     pub fn change(&self, mut by: impl FnMut(u64, &mut [f64])) -> Result<()> {
         let mut file = self.open(true)?;
         let width = self.names.len();

@@ -1,4 +1,4 @@
-//! Numbers of the command line: what is none is told in plain words. Negative ones are taken for numbers, not for
+//! Numbers of the command line: what is none is refused in plain words. Negative ones are taken for numbers, not for
 //! options, so that the command itself says what is wrong with them.
 
 /// Any number.
@@ -15,4 +15,42 @@ pub(crate) fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32
 /// What says which of all random courses is taken.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
+}
+
+/// A speed in hertz: a number of them, or one with its unit.
+pub(crate) fn speed(text: &str) -> Result<f64, String> {
+    let text = text.trim().to_ascii_lowercase();
+    let units = [("rpm", 1.0 / 60.0), ("rev/min", 1.0 / 60.0), ("1/min", 1.0 / 60.0), ("hz", 1.0)];
+    let (number, hertz) =
+        units.iter().find_map(|(unit, hertz)| Some((text.strip_suffix(unit)?, *hertz))).unwrap_or((&text, 1.0));
+    let value: f64 =
+        number.trim().parse().map_err(|_| "it must be a number of Hz, or of rpm as in 1797rpm".to_owned())?;
+    Ok(value * hertz)
+}
+
+/// A sign between columns, by itself or by its name.
+pub(crate) fn delimiter(text: &str) -> Result<char, String> {
+    let mut characters = text.chars();
+    match (text, characters.next(), characters.next()) {
+        ("tab" | "\\t", ..) => Ok('\t'),
+        ("blank" | "blanks", ..) => Ok(' '),
+        (_, Some(sign), None) => Ok(sign),
+        _ => Err("it must be one sign, or tab, or blank".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn speeds_are_hertz_unless_they_have_another_unit() {
+        assert_eq!(
+            ["29.95", "29.95 Hz", "1797rpm", "600 rev/min"].map(|text| speed(text).unwrap()),
+            [29.95, 29.95, 1797.0 / 60.0, 10.0]
+        );
+        assert!(speed("fast").is_err() && speed("rpm").is_err() && speed("10 m/s").is_err());
+        assert_eq!(["tab", "\\t", "blank", ";"].map(|text| delimiter(text).unwrap()), ['\t', '\t', ' ', ';']);
+        assert!(delimiter(";;").is_err() && delimiter("").is_err());
+    }
 }

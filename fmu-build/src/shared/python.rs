@@ -252,7 +252,7 @@ fn uv(interpreter: &Path, list: &Path) -> Result<Output> {
     Ok(command.output()?)
 }
 
-/// The end of what a program said, on one line: an FMU logs to the one stream, Python raises on the other.
+/// The end of what a program printed, on one line: an FMU logs to the one stream, Python raises on the other.
 fn said(output: &Output) -> String {
     let last = |stream: &[u8], count: usize| {
         let text = String::from_utf8_lossy(stream);

@@ -1,7 +1,7 @@
 //! What is wrong with a sweep beside its scene: every value is tried in the scene before anything runs.
 //!
 //! First one run whose values are each the first on the grid and the lower end of its range, then, key by key, the
-//! others. What only some runs with random values meet is found when they are run, and told in their rows.
+//! others. What only some runs with random values meet shows when they are run, in their rows.
 
 use brinell_scene_file::SceneFileError;
 use toml::Value;

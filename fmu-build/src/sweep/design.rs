@@ -10,21 +10,14 @@ use brinell::numerics::counter_noise::{bits, uniform};
 use toml::Value;
 
 use super::file::{Kind, Sweep};
+use crate::run::noise::Noise;
 
 /// Random numbers of a sweep that are no key's.
 const NOISE_RATIO: &str = "noise_db";
+const NOISE_FLOOR: &str = "noise_rms_m_s2";
 const NOISE: &str = "noise";
 /// What names of parts' folders begin with.
 pub(super) const PART: &str = "part-";
-
-/// Noise added to a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct RunNoise {
-    /// Signal-to-noise ratio (dB).
-    pub(super) ratio: f64,
-    /// Which noise.
-    pub(super) seed: u64,
-}
 
 /// What one run is.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +28,7 @@ pub(super) struct Run {
     pub(super) profile: Option<usize>,
     /// Keys of the scene from the grid, then those drawn at random.
     pub(super) values: Vec<(String, Value)>,
-    pub(super) noise: Option<RunNoise>,
+    pub(super) noise: Option<Noise>,
 }
 
 /// One of several parts of a sweep, for machines that share the work: every `count`-th run.
@@ -88,11 +81,16 @@ impl Sweep {
             let draw = uniform(self.seed, checksum(entry.key.as_bytes()), index as i64);
             values.push((entry.key.clone(), drawn(entry.of, draw, is_whole(&entry.key))));
         }
-        let noise = self.noise.map(|[low, high]| {
-            let draw = uniform(self.seed, checksum(NOISE_RATIO.as_bytes()), index as i64);
-            let seed = bits(self.seed, checksum(NOISE.as_bytes()), index as i64);
-            RunNoise { ratio: low + (high - low) * draw, seed }
-        });
+        let within = |key: &str, [low, high]: [f64; 2]| {
+            low + (high - low) * uniform(self.seed, checksum(key.as_bytes()), index as i64)
+        };
+        let noise = Noise {
+            ratio: self.noise.ratio.map(|limits| within(NOISE_RATIO, limits)),
+            floor: self.noise.floor.map(|limits| within(NOISE_FLOOR, limits)),
+            color: self.noise.color,
+            seed: bits(self.seed, checksum(NOISE.as_bytes()), index as i64),
+        };
+        let noise = (noise.ratio.is_some() || noise.floor.is_some()).then_some(noise);
         Run { index, kind, profile, values, noise }
     }
 

@@ -8,11 +8,23 @@ use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use super::faults::Fault;
-use crate::run::noise::RATIOS;
+use crate::run::noise::{Color, FLOORS, NoiseLimits, RATIOS};
 
 /// Keys of the file itself, and its three tables of keys of a scene.
-const KEYS: [&str; 10] =
-    ["scene", "runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles", "noise_db"];
+const KEYS: [&str; 12] = [
+    "scene",
+    "runs",
+    "seed",
+    "stop_s",
+    "settle_s",
+    "rate_hz",
+    "filter",
+    "kinds",
+    "speed_profiles",
+    "noise_db",
+    "noise_rms_m_s2",
+    "noise_color",
+];
 const TABLES: [&str; 3] = ["set", "grid", "random"];
 /// Samples per second that a sweep may ask for (Hz).
 const RATES: RangeInclusive<f64> = 100.0..=1e6;
@@ -51,7 +63,7 @@ pub(super) struct Entry<T> {
 pub(super) struct Sweep {
     /// Scene file, relative to this one, or the name of a shipped scene.
     pub(super) scene: String,
-    /// How many runs; each point of the grid once where nothing is said.
+    /// How many runs; each point of the grid once where nothing is given.
     pub(super) runs: u64,
     pub(super) seed: u64,
     /// End of each run, and what is left out of signals and statistics at its beginning (s).
@@ -64,8 +76,7 @@ pub(super) struct Sweep {
     pub(super) kinds: Vec<Kind>,
     /// Files with the shaft's speed over time, relative to this one.
     pub(super) speed_profiles: Vec<String>,
-    /// Limits of the signal-to-noise ratio (dB).
-    pub(super) noise: Option<[f64; 2]>,
+    pub(super) noise: NoiseLimits,
     pub(super) set: Vec<Entry<Value>>,
     pub(super) grid: Vec<Entry<Vec<Value>>>,
     pub(super) random: Vec<Entry<[f64; 2]>>,
@@ -245,13 +256,29 @@ impl Reading<'_, '_> {
         kinds
     }
 
-    fn noise(&mut self) -> Option<[f64; 2]> {
-        let value = self.values.get("noise_db")?;
-        let limits = number(value).map(|ratio| [ratio; 2]).or_else(|| pair(value));
-        let fitting = limits.filter(|[low, high]| low <= high && RATIOS.contains(low) && RATIOS.contains(high));
+    fn noise(&mut self) -> NoiseLimits {
+        let limit = "a ratio, or a list of two, the lower one first, from -60 to 200";
+        let ratio = self.limits("noise_db", RATIOS, limit);
+        let limit = "a root mean square, or a list of two, the lower one first, from 1e-9 to 1e6";
+        let floor = self.limits("noise_rms_m_s2", FLOORS, limit);
+        let color = match self.text("noise_color").as_deref() {
+            None | Some("white") => Color::White,
+            Some("pink") => Color::Pink,
+            Some(_) => {
+                self.wrong("noise_color", &self.values["noise_color"], "\"white\" or \"pink\"");
+                Color::White
+            }
+        };
+        NoiseLimits { ratio, floor, color }
+    }
+
+    /// A number, or two between which one is drawn.
+    fn limits(&mut self, key: &str, range: RangeInclusive<f64>, limit: &str) -> Option<[f64; 2]> {
+        let value = self.values.get(key)?;
+        let limits = number(value).map(|number| [number; 2]).or_else(|| pair(value));
+        let fitting = limits.filter(|[low, high]| low <= high && range.contains(low) && range.contains(high));
         if fitting.is_none() {
-            let limit = "a ratio, or a list of two, the lower one first, from -60 to 200";
-            self.wrong("noise_db", value, limit);
+            self.wrong(key, value, limit);
         }
         fitting
     }

@@ -43,7 +43,7 @@ impl<'p> Maps<'p> {
         Self { project, kept: Mutex::new(kept), failed: HashMap::new() }
     }
 
-    /// Puts the maps of a scene into the cache that are not there, on so many threads. What cannot be computed is told
+    /// Puts the maps of a scene into the cache that are not there, on so many threads. What cannot be computed shows
     /// to the runs that need it.
     pub(super) fn prepare(&mut self, scene: &Scene, profiles: &[Arc<str>], threads: usize) -> Result<()> {
         let surfaces = Surface::load_all(scene, profiles.iter().map(|text| &**text))?;

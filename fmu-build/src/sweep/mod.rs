@@ -3,7 +3,6 @@
 //! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
 //! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
 
-mod bench;
 mod check;
 mod design;
 mod faults;
@@ -11,8 +10,8 @@ mod file;
 mod maps;
 mod record;
 mod rows;
+mod runner;
 mod scenes;
-mod statistics;
 mod workers;
 
 use std::collections::{BTreeSet, HashMap};
@@ -28,14 +27,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::interrupt::{Held, Interrupted, Temporary};
 use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, NotWritten, Project, whole_file};
-use bench::Bench;
-pub(crate) use bench::Written;
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
 use maps::Maps;
 use record::Record;
 use rows::{Journal, Row};
+pub(crate) use runner::SignalFormat;
+use runner::SweepRunner;
 use scenes::Base;
 
 /// The table of a sweep.
@@ -47,7 +46,7 @@ pub(crate) struct Options {
     /// Runs at once.
     pub(crate) jobs: usize,
     /// What each run's signals are written as; `None` for not at all.
-    pub(crate) signals: Option<Written>,
+    pub(crate) signals: Option<SignalFormat>,
     /// The part of the runs that is made here; `None` for all.
     pub(crate) part: Option<Part>,
 }
@@ -73,14 +72,14 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let _lock = lock(folder)?;
     record.claim(folder)?;
-    let columns = bench::columns(sweep, &|key| planned.is_whole(key));
+    let columns = rows::labels::columns(sweep, &|key| planned.is_whole(key));
     let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
     take_parts(folder, &record, &signals)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
         bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
     }
-    let bench = Bench {
+    let runner = SweepRunner {
         sweep,
         base,
         columns: &columns,
@@ -96,14 +95,14 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         table.write(&mut rows)?;
     }
     let wanted: Vec<u64> = (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.has(run))).collect();
-    let missing = Missing::of(&rows, &wanted, &bench);
-    let (maps, fingerprints) = prepare(project, &planned, &bench, &missing.runs, options.jobs)?;
+    let missing = Missing::of(&rows, &wanted, &runner);
+    let (maps, fingerprints) = prepare(project, &planned, &runner, &missing.runs, options.jobs)?;
     let _held = Held::new();
     let bar = bar(wanted.len() as u64, (wanted.len() - missing.runs.len()) as u64);
     // The table is written now and then, whenever there is a quarter more of it.
     let mut next = rows.len() + rows.len() / 4 + 100;
     let mut counts = Counts { made: 0, again: 0, failed: 0 };
-    let job = |k: usize| bench.row(&planned.run(missing.runs[k]), &maps, &fingerprints[k]);
+    let job = |k: usize| runner.row(&planned.run(missing.runs[k]), &maps, &fingerprints[k]);
     workers::each(options.jobs, missing.runs.len(), job, |k, row| {
         let row = match row {
             // Of a run under way when the user ended the sweep nothing is kept.
@@ -142,7 +141,7 @@ struct Table<'a> {
 }
 
 impl Table<'_> {
-    /// Writes it beside the runs under way, whence it is moved when it is whole.
+    /// Writes it beside the runs under way, and moves it from there when it is whole.
     fn write(&self, rows: &mut [Row]) -> Result<()> {
         rows.sort_by_key(Row::run);
         let whole = self.running.join(TABLE);
@@ -159,10 +158,10 @@ struct Missing {
 }
 
 impl Missing {
-    fn of(rows: &[Row], wanted: &[u64], bench: &Bench<'_>) -> Self {
+    fn of(rows: &[Row], wanted: &[u64], runner: &SweepRunner<'_>) -> Self {
         let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
         let sound = rows.iter().filter(|row| error_of(row).is_none()).filter_map(Row::run);
-        let again: BTreeSet<u64> = sound.filter(|run| bench.lacks_signals(*run)).collect();
+        let again: BTreeSet<u64> = sound.filter(|run| runner.lacks_signals(*run)).collect();
         let missing = |run: &&u64| !done.contains(run) || again.contains(run);
         let runs = wanted.iter().filter(missing).copied().collect();
         Self { runs, again }
@@ -250,13 +249,13 @@ impl Planned {
 fn prepare<'p>(
     project: &'p Project,
     planned: &Planned,
-    bench: &Bench<'_>,
+    runner: &SweepRunner<'_>,
     missing: &[u64],
     jobs: usize,
 ) -> Result<(Maps<'p>, Vec<Vec<u64>>)> {
     let mut fingerprints = vec![Vec::new(); missing.len()];
     let needed = |k: usize| {
-        let ready = bench.ready(&planned.run(missing[k])).ok()?;
+        let ready = runner.ready(&planned.run(missing[k])).ok()?;
         maps::needed(&ready.scene, &ready.texts).ok()
     };
     workers::each(jobs, missing.len(), needed, |k, found| {
@@ -273,7 +272,7 @@ fn prepare<'p>(
     }
     let mut maps = Maps::new(project, uses);
     for k in first {
-        let ready = bench.ready(&planned.run(missing[k]))?;
+        let ready = runner.ready(&planned.run(missing[k]))?;
         maps.prepare(&ready.scene, &ready.texts, jobs)?;
     }
     Ok((maps, fingerprints))

@@ -10,8 +10,8 @@ use brinell::numerics::checksum::checksum;
 use clap::ValueEnum;
 use toml::{Table, Value};
 
-use super::bench::Written;
 use super::file::Sweep;
+use super::runner::SignalFormat;
 use super::scenes::Base;
 use crate::shared::shipped;
 use crate::shared::whole_file;
@@ -24,7 +24,13 @@ pub(super) struct Record(Vec<String>);
 
 impl Record {
     /// Of a sweep in a file.
-    pub(super) fn of(sweep: &Sweep, base: &Base, file: &Path, text: &str, written: Option<Written>) -> Result<Self> {
+    pub(super) fn of(
+        sweep: &Sweep,
+        base: &Base,
+        file: &Path,
+        text: &str,
+        written: Option<SignalFormat>,
+    ) -> Result<Self> {
         let mut lines = vec![format!("program = {:?}", env!("CARGO_PKG_VERSION"))];
         let signals = written.and_then(|written| written.to_possible_value());
         lines.push(format!("signals = {:?}", signals.as_ref().map_or("none", |value| value.get_name())));

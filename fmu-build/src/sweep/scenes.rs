@@ -53,7 +53,7 @@ impl Base {
         let mut table = self.table.clone();
         table.insert("name".to_owned(), Value::String(run_name(run.index)));
         if let Some(kind) = run.kind {
-            bear(&mut table, kind)?;
+            put_on(&mut table, kind)?;
         }
         let set = sweep.set.iter().map(|entry| (entry.key.as_str(), &entry.of));
         let of_run = run.values.iter().map(|(key, value)| (key.as_str(), value));
@@ -119,8 +119,8 @@ pub(super) fn is_of_defect(key: &str) -> bool {
     key == "defect" || key.starts_with("defect.")
 }
 
-/// Makes a body bear the defect.
-fn bear(table: &mut Table, kind: Kind) -> Result<(), String> {
+/// Puts the defect on a body.
+fn put_on(table: &mut Table, kind: Kind) -> Result<(), String> {
     if kind == Kind::Healthy {
         table.remove("defect");
         return Ok(());

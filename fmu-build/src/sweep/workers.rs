@@ -35,7 +35,7 @@ pub(super) fn each<T: Send>(
         drop(give);
         let done = results.iter().try_for_each(|(index, result)| take(index, result));
         stopped.store(true, Ordering::Relaxed);
-        // Who waits to give a result is told that nobody takes it.
+        // Who waits to give a result gets an error: nobody takes it.
         drop(results);
         done
     })

@@ -98,23 +98,3 @@ fn on_a_smooth_raceway_the_summary_is_hertzs() {
     assert!((number(&found["at_mm"][2]) / number(&hertz["at_mm"][2]) - 1.0).abs() < 1e-2, "{found} {hertz}");
     assert!(!folder.join("er16k-tb1-contact.svg").exists());
 }
-
-#[test]
-fn what_is_no_contact_of_a_ball_is_refused_and_nothing_is_written() {
-    let folder = common::folder("contact-refused");
-    for (scene, angle, force, resolution, words) in [
-        ("er16k-tb1", "0", "0", "64", "contact force 0 N: it must be finite and above 0"),
-        ("er16k-tb1", "0", "-5", "64", "contact force -5 N"),
-        ("er16k-tb1", "0", "nan", "64", "contact force NaN N"),
-        ("er16k-tb1", "0", "1e9", "64", "contact force 1000000000 N: the contact reaches 80 % of the radius"),
-        ("er16k-tb1", "inf", "100", "64", "angle from the defect's middle inf degrees: it must be from -180 to 180"),
-        ("er16k-tb1", "181", "100", "64", "angle from the defect's middle 181 degrees"),
-        ("er16k-tb1", "0", "100", "16", "resolution 16 cells: it must be from 32 to 1024"),
-        ("nu205-inner", "0", "100", "64", "for balls only"),
-    ] {
-        let output = contact(scene, "inner", angle, force, &folder, &["--resolution", resolution]);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(!output.status.success() && said.contains(words), "{said}");
-        assert!(output.stdout.is_empty() && fs::read_dir(&folder).unwrap().next().is_none(), "{said}");
-    }
-}

@@ -1,5 +1,6 @@
 //! The program `brinell` as its users run it: commands, options, what it writes and what it says.
 
+mod answers;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;

@@ -3,59 +3,15 @@
 
 use crate::common;
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Output};
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments).output().unwrap()
 }
 
-/// What the program says of a scene whose text was changed in one place.
-fn said_of(folder: &Path, old: &str, new: &str, command: &[&str]) -> (bool, String) {
-    let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
-    assert_eq!(text.matches(old).count(), 1, "`{old}` must stand once in the scene");
-    let path = folder.join("changed.toml");
-    fs::write(&path, text.replace(old, new)).unwrap();
-    let path = path.display().to_string();
-    let output = program(&[&command[..1], &[path.as_str()], &command[1..]].concat());
-    (output.status.success(), String::from_utf8(output.stderr).unwrap())
-}
-
 #[track_caller]
 fn once(said: &str, words: &str) {
     assert_eq!(said.matches(words).count(), 1, "`{words}` once in: {said}");
-}
-
-#[test]
-fn what_is_wrong_with_a_scene_file_is_said_once() {
-    let folder = common::folder("messages");
-    for (old, new, words) in [
-        (
-            "element_count = 9",
-            "element_count = \"nine\"",
-            "bearing.element_count is \"nine\": it must be a whole number",
-        ),
-        ("[bearing]", "[bearing", "TOML parse error"),
-        ("element_count = 9", "element_cout = 9", "did you mean element_count?"),
-        ("element_count = 9", "element_count = 0", "number of elements"),
-    ] {
-        let (succeeded, said) = said_of(&folder, old, new, &["build"]);
-        assert!(!succeeded, "{new} was taken");
-        once(&said, words);
-        once(&said, "changed.toml");
-    }
-}
-
-#[test]
-fn a_groove_that_no_ball_bearing_has_is_remarked_upon() {
-    let folder = common::folder("remarks");
-    let out = folder.display().to_string();
-    let command = ["run", "--stop", "1e-4", "--no-figure", "-o", &out];
-    let (succeeded, said) = said_of(&folder, "conformity_outer = 0.52", "conformity_outer = 5.2", &command);
-    assert!(succeeded, "{said}");
-    once(&said, "the groove conformity of the outer ring is 5.2000: ball bearings have 0.51 to 0.6");
-    let (succeeded, said) = said_of(&folder, "conformity_outer = 0.52", "conformity_outer = 0.53", &command);
-    assert!(succeeded && !said.contains("note:"), "{said}");
 }
 
 #[test]
@@ -106,36 +62,6 @@ fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
     assert!(!listed.contains("\n60"), "{listed}");
 }
 
-/// The scene that a run of every kind is tried with: quick, and with what `more` says of its defect.
-fn with_defect(folder: &Path, more: &str) -> String {
-    let text = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();
-    let shape = text.lines().find(|line| line.starts_with("length_deg")).unwrap();
-    let path = folder.join("defect.toml");
-    fs::write(&path, text.replace(shape, more)).unwrap();
-    path.display().to_string()
-}
-
-#[test]
-fn a_defect_in_another_unit_is_asked_about_before_a_map_is_begun() {
-    let folder = common::folder("units");
-    let out = folder.display().to_string();
-    let scene = with_defect(&folder, "length_mm = 0.0012");
-    let output = program(&["run", &scene, "--no-figure", "-o", &out]);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(!output.status.success() && !said.contains("contact map"), "{said}");
-    once(&said, "1.2 mm given in metres?");
-}
-
-#[test]
-fn a_value_that_may_be_meant_is_asked_about_and_the_run_goes_on() {
-    let folder = common::folder("questions");
-    let out = folder.display().to_string();
-    let command = ["run", "--stop", "1e-4", "--no-figure", "-o", &out];
-    let (succeeded, said) = said_of(&folder, "load_n = [0.0, -1500.0]", "load_n = [0.0, -1.5]", &command);
-    assert!(succeeded, "{said}");
-    once(&said, "shaft.load_n = -1.5: -1500 N given in kN? Usual are");
-}
-
 #[test]
 fn depths_of_a_profile_that_may_be_meant_in_millimetres_are_asked_about() {
     let folder = common::folder("depths");
@@ -154,53 +80,6 @@ fn depths_of_a_profile_that_may_be_meant_in_millimetres_are_asked_about() {
     };
     once(&said("0.05"), "note: dent.csv: its depths reach 0.05 um: 50 um given in millimetres? Usual are 0.5 to");
     assert!(!said("50").contains("dent.csv: its depths"));
-}
-
-#[test]
-fn a_shaft_that_is_too_fast_is_asked_about_and_a_step_that_fails_tells_its_time_once() {
-    let folder = common::folder("too-fast");
-    let scene = with_defect(&folder, "length_deg = 15.8");
-    let text = fs::read_to_string(&scene).unwrap();
-    let [law, speed] =
-        ["law = ", "speed_hz = "].map(|key| text.lines().find(|line| line.starts_with(key)).unwrap().to_owned());
-    fs::write(&scene, text.replace(&law, "law = \"hertz\"").replace(&speed, "speed_hz = 600.0")).unwrap();
-    let steps = ["--stop", "0.02", "--no-figure", "-o", folder.to_str().unwrap()];
-    let output = program(&[&["run", scene.as_str()], &steps[..]].concat());
-    let said = String::from_utf8(output.stderr).unwrap();
-    once(&said, "shaft.speed_hz = 600: 10 Hz given in rev/min? Usual are 0 to");
-    // A budget of a single integration step fails at any speed.
-    fs::write(&scene, text.replace(&law, "law = \"hertz\"").replace("[solver]", "[solver]\nmax_steps = 1")).unwrap();
-    let output = program(&[&["run", scene.as_str()], &steps[..]].concat());
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(!output.status.success());
-    once(&said, "error: at ");
-    assert!(!said.contains(" s: at "), "{said}");
-}
-
-#[test]
-fn a_word_of_the_command_line_that_is_not_known_is_answered_with_the_nearest() {
-    let folder = common::folder("words");
-    let out = folder.display().to_string();
-    let cases: [(&[&str], &str); 11] = [
-        (&["bild", "x"], "'build'"),
-        (&["run", "6205-healty"], "did you mean 6205-healthy?"),
-        (&["build", "er16k-tb3"], "did you mean er16k-tb1?"),
-        (&["scenes", "6205-eps"], "did you mean 6205-epps?"),
-        (&["catalogue", "6025"], "did you mean 6205?"),
-        (&["new", "x", "--bearing", "6250"], "did you mean 6205?"),
-        (&["run", "6205-healthy", "--columns", "shaft.yy"], "did you mean shaft.y?"),
-        (&["run", "6205-healthy", "--stop", "-1"], "stop time -1 s: it must be finite and above 0"),
-        (&["run", "6205-healthy", "--stop", "soon"], "it must be a number"),
-        (&["stiffness", "6205-healthy", "--points", "-3"], "it must be a whole number from 1 to 100000"),
-        (&["run", "6205-healthy", "--noise-db", "3", "--noise-seed", "-1"], "it must be a whole number, 0 or more"),
-    ];
-    for (words, answer) in cases {
-        let words: &[&str] = &[words, &["-o", &out][..if words[0] == "catalogue" { 0 } else { 2 }]].concat();
-        let output = program(words);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(!output.status.success() && said.contains(answer), "{words:?}: {said}");
-        assert!(!said.contains("-- -") && !said.contains("literal") && !said.contains("digit found"), "{said}");
-    }
 }
 
 #[test]

@@ -22,10 +22,10 @@ fn healthy(count: usize) -> Vec<f64> {
 }
 
 fn csv(folder: &Path, name: &str, columns: &[(&str, Vec<f64>)]) -> PathBuf {
-    let mut text = columns.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(";") + "\n";
+    let mut text = columns.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(",") + "\n";
     for i in 0..columns[0].1.len() {
         let row: Vec<String> = columns.iter().map(|(_, column)| column[i].to_string()).collect();
-        text += &(row.join(";") + "\n");
+        text += &(row.join(",") + "\n");
     }
     let path = folder.join(name);
     std::fs::write(&path, text).unwrap();
@@ -34,11 +34,13 @@ fn csv(folder: &Path, name: &str, columns: &[(&str, Vec<f64>)]) -> PathBuf {
 
 fn size(folder: &Path, recording: &Path, more: &[&str]) -> Output {
     let scene = common::root().join("scenes/6205-healthy.toml");
+    size_of(folder, recording, &[&["--scene", scene.to_str().unwrap()], more].concat())
+}
+
+fn size_of(folder: &Path, recording: &Path, more: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_brinell"))
         .arg("size")
         .arg(recording)
-        .arg("--scene")
-        .arg(scene)
         .args(["--no-figure", "-o"])
         .arg(folder.join("out"))
         .args(more)
@@ -78,6 +80,38 @@ fn a_recordings_rate_is_said_in_six_digits_and_each_file_by_its_name() {
     for name in ["timed-size.csv", "timed-size.json"] {
         assert!(said.contains(&format!("{}\n", folder.path().join("out").join(name).display())), "{said}");
     }
+}
+
+#[test]
+fn a_bearing_of_the_catalogue_and_rpm_are_enough_and_the_answer_is_a_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = csv(folder.path(), "two.csv", &[("left", healthy(60_000)), ("right", healthy(60_000))]);
+    let with = |more: &[&str]| {
+        let output = size_of(folder.path(), &path, &[&["--rate", "51200", "--speed", "600rpm"], more].concat());
+        (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned(), output.stdout)
+    };
+    // Of two channels none is taken silently.
+    let (done, said, _) = with(&["--bearing", "6205"]);
+    assert!(!done && said.contains("columns left, right") && said.contains("--channel"), "{said}");
+    let (done, said, answer) = with(&["--bearing", "6205", "--channel", "right"]);
+    let page = folder.path().join("page.html");
+    let (paged, _, _) = with(&["--bearing", "6205", "--channel", "right", "--report", page.to_str().unwrap()]);
+    let text = std::fs::read_to_string(&page).unwrap();
+    // The answer, the combs of three kinds, and four curves with the lines of the bearing.
+    assert!(paged && text.contains("<h1>no fault found, no length: ") && text.contains("two.csv"), "{text:.400}");
+    assert_eq!(text.matches("<polyline points=\"0.0,").count(), 4);
+    assert!(["rolling element (2 BSF)", ">1 × BPFO<", ">2 × BPFI<", ">shaft<"].iter().all(|part| text.contains(part)));
+    assert!(done && said.contains("shaft 10.0000 Hz") && said.contains("a load of 350 N is assumed"), "{said}");
+    assert!(said.contains("\nno fault found, no length: "), "{said}");
+    let report: Value = serde_json::from_slice(&answer).unwrap();
+    // 3.5848 times the shaft's speed, sought from 3 % below to 2 % above.
+    assert!((34.7..36.7).contains(&report["bpfo_hz"].as_f64().unwrap()));
+    let (done, said, _) = with(&["--bearing", "6205", "--load", "1200", "--channel", "2"]);
+    assert!(done && !said.contains("assumed"), "{said}");
+    let (done, said, _) = with(&["--bearing", "9999", "--channel", "2"]);
+    assert!(!done && said.contains("9999"), "{said}");
+    // Neither a scene nor a bearing; both.
+    assert!(!with(&["--channel", "2"]).0 && !with(&["--bearing", "6205", "--scene", "6205-healthy"]).0);
 }
 
 #[test]

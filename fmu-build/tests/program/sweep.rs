@@ -3,6 +3,7 @@
 
 mod ends;
 mod files;
+mod labels;
 mod oracle;
 mod rings;
 

@@ -56,7 +56,7 @@ pub(super) struct Check {
     pub(super) oracle: Option<Deviation>,
 }
 
-/// What was found.
+/// The results.
 #[derive(Debug, Clone)]
 pub(super) struct Integration {
     pub(super) rows: Vec<Row>,

@@ -2,9 +2,7 @@
 
 use std::fmt::Write;
 
-use super::co_simulation::Coupled;
 use super::contact;
-use super::coupling::{Coupling, Limit, limits};
 use super::integration::{Check, Integration, Row};
 
 /// Errors of the acceleration at which costs are compared.
@@ -12,7 +10,7 @@ const LEVELS: [f64; 3] = [1e-2, 1e-3, 1e-5];
 const METHODS: [&str; 4] = ["automatic", "phase-fitted only", "DP5 only", "Rodas5P only"];
 
 /// The whole page.
-pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integration, coupled: &[Coupled]) -> String {
+pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integration) -> String {
     let mut text = format!(
         "# Error against run time\n\n\
          Written by `cargo fmu report`; the numbers behind it are in [`data/`](data). Measured on: {machine}. Times \
@@ -20,9 +18,7 @@ pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integ
          What stiff and extreme cases do is in [stability.md](stability.md).\n\n"
     );
     text += &contact_part(contacts);
-    text += &integration_part(integration);
-    text += &coupled_part(coupled);
-    text
+    text + &integration_part(integration)
 }
 
 fn contact_part(rows: &[contact::Row]) -> String {
@@ -113,7 +109,7 @@ fn integration_part(found: &Integration) -> String {
             pair.acceleration_rms, pair.path_max
         );
     }
-    text + "\n"
+    text
 }
 
 fn cheapest(rows: &[Row], scene: &str, method: &str, level: f64) -> String {
@@ -128,33 +124,4 @@ fn cheapest(rows: &[Row], scene: &str, method: &str, level: f64) -> String {
 fn cost(seconds: f64) -> String {
     let digits = (2 - seconds.log10().floor() as i32).max(0) as usize;
     format!("{seconds:.digits$}")
-}
-
-fn coupled_part(coupled: &[Coupled]) -> String {
-    let mut text = "## Co-simulation\n\n\
-         A host that is a mass on the inner ring, motion in and force out, against one simulation with the mass \
-         inside; the housing stands. *held*: motion and force stay what they are during a step. *extrapolated*: the \
-         FMU goes on with velocity and acceleration, and the host uses the mean and the end force. *rolled back once*: \
-         as before, then the state is put back and the step repeated with the motion that came out. Error: rms of the \
-         ring's position over that of its distance from the start, 20 ms after the load has doubled.\n\n\
-         ![Error against communication step](figures/error-vs-run-time-co-simulation.svg)\n\n"
-        .to_owned();
-    for Coupled { scene, rows, steps } in coupled {
-        let head: Vec<String> = steps.iter().map(|step| format!("{step:.0e} s")).collect();
-        let _ = writeln!(
-            text,
-            "| {scene}: host | coupling | {} | stable to |\n|---:|---|{}---:|",
-            head.join(" | "),
-            "---:|".repeat(head.len())
-        );
-        for Limit { host_mass: mass, coupling, longest } in limits(rows) {
-            let same = rows.iter().filter(|row| row.host_mass == mass && row.coupling == coupling);
-            let cells: Vec<String> =
-                same.map(|row| row.error.map_or("–".to_owned(), |error| format!("{error:.0e}"))).collect();
-            let longest = longest.map_or("–".to_owned(), |step| format!("{step:.0e} s"));
-            let _ = writeln!(text, "| {mass} kg | {} | {} | {longest} |", Coupling::name(coupling), cells.join(" | "));
-        }
-        text += "\n";
-    }
-    text + "– : unstable. *stable to*: longest step of these up to which all shorter ones are stable too.\n\n"
 }

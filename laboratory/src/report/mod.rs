@@ -4,14 +4,11 @@
 //! |---|---|
 //! | `contact` | how wrong is one contact, by grid and by map, for which CPU time |
 //! | `integration` | how wrong is a run, by which method and tolerance, for which CPU time |
-//! | `co_simulation` | how wrong is a coupled run, and when unstable, by communication step and way of coupling |
 //!
 //! Times are CPU times of the one thread that steps, best of several runs; other programs on the machine still take
 //! caches and memory from it, so ratios within a table mean more than the times.
 
-mod co_simulation;
 mod contact;
-pub mod coupling;
 mod integration;
 mod machine;
 mod markdown;
@@ -39,11 +36,10 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let python = Python::prepare(project)?;
     let contacts = contact::measure(extent, &data)?;
     let integration = integration::measure(&python, extent, &data)?;
-    let coupled = co_simulation::measure(extent, &data)?;
     let stem = figures.join("error-vs-run-time");
     let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/report.py"));
     print!("{}", python.run_file(script, [data.as_os_str(), stem.as_os_str()])?);
-    let text = markdown::page(&machine::description(), &contacts, &integration, &coupled);
+    let text = markdown::page(&machine::description(), &contacts, &integration);
     let path = folder.join("error-vs-run-time.md");
     whole_file::write(&path, text)?;
     println!("{}", path.display());

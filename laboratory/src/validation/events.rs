@@ -7,7 +7,7 @@ use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::scene::ContactLaw;
 use brinell::surface::Surface;
-use brinell_analysis::sizing::ringing;
+use brinell_analysis::sizing::waveform::ringing;
 use brinell_analysis::sizing::waveform::synthesis;
 
 use super::runs::Case;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::passages::fold;
 use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport, event_length};
@@ -86,7 +86,9 @@ pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     let scene = Scene { defects: Vec::new(), ..case.scene.clone() };
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let read = |known: &Known| -> Result<Recording> {
-        let source = Source { rate: known.rate.or(Some(rate)), speed: Speed::Constant(known.speed), signal: None };
+        let speed = Speed::Constant(known.speed);
+        let text = TextFormat::default();
+        let source = Source { rate: known.rate.or(Some(rate)), speed, signal: None, text };
         Ok(Recording::read(&known.path, &source)?)
     };
     let mut text = String::from(

@@ -21,7 +21,8 @@
 //! the contact law, and the raceway yields along the contact's direction.
 
 use super::elasticity::Elasticity;
-use super::force_law::{Force, ForceLaw};
+use super::force_law::ForceLaw;
+use crate::numerics::number::Scalar;
 
 /// Most of Newton's steps. Where the compliance takes nearly all, each leaves a tenth of the approach; then they double
 /// the digits.
@@ -39,12 +40,12 @@ pub struct CompliantContact {
 impl CompliantContact {
     /// The contact's own approach (m) and the rate (m/s) at which its damper acts, of those of the whole.
     #[inline(always)]
-    pub fn of_contact(&self, delta: f64, rate: f64) -> (f64, f64) {
-        if self.compliance == 0.0 || delta <= 0.0 {
+    pub fn of_contact<T: Scalar>(&self, delta: T, rate: T) -> (T, T) {
+        if self.compliance == 0.0 || delta.value() <= 0.0 {
             return (delta, rate);
         }
-        let part = self.part(delta);
-        (part.approach, part.share * part.share * rate)
+        let Part { approach, share } = self.part_of(delta);
+        (approach, share * share * rate)
     }
 
     /// Elastic force (N) at approach `delta` (m).
@@ -62,26 +63,10 @@ impl CompliantContact {
     }
 
     /// Force (N) at approach `delta` (m) and its rate (m/s).
-    pub fn force(&self, delta: f64, rate: f64) -> f64 {
+    #[inline(always)]
+    pub fn force<T: Scalar>(&self, delta: T, rate: T) -> T {
         let (delta, rate) = self.of_contact(delta, rate);
         self.law.force(delta, rate)
-    }
-
-    /// Force with its derivatives.
-    pub fn with_derivatives(&self, delta: f64, rate: f64) -> Force {
-        if self.compliance == 0.0 || delta <= 0.0 {
-            return self.law.with_derivatives(delta, rate);
-        }
-        let Part { approach, share } = self.part(delta);
-        let alone = self.law.with_derivatives(approach, share * share * rate);
-        // s = 1/(1 + c k) falls as the contact hardens: ds/dΔ = −s³ c dk/dδ.
-        let hardening = self.law.hardening(approach);
-        let share_by_approach = -share * share * share * self.compliance * hardening;
-        Force {
-            value: alone.value,
-            by_approach: share * (alone.by_approach + alone.by_rate * 2.0 * rate * share_by_approach),
-            by_rate: alone.by_rate * share * share,
-        }
     }
 
     /// As [`ForceLaw::pushing`].
@@ -92,9 +77,23 @@ impl CompliantContact {
 }
 
 impl CompliantContact {
+    /// As [`Self::part`], with derivatives where the approach has them.
+    #[inline(always)]
+    fn part_of<T: Scalar>(&self, total: T) -> Part<T> {
+        let Part { approach: root, share } = self.part(total.value());
+        if T::DEPTH == 0 {
+            return Part { approach: T::from(root), share: T::from(share) };
+        }
+        let compliance = T::Plain::from(self.compliance);
+        let excess = |approach: T| approach + self.law.elastic(approach) * compliance - total;
+        let approach = T::root_of(root, 1.0 / share, excess);
+        let softer = self.law.elastic_stiffness(approach) * compliance + T::from(1.0);
+        Part { approach, share: T::from(1.0) / softer }
+    }
+
     /// The part of the approach `total` > 0 (m) that the contact takes.
     #[inline(always)]
-    fn part(&self, total: f64) -> Part {
+    fn part(&self, total: f64) -> Part<f64> {
         match self.law.elasticity {
             Elasticity::Point => part(total, self.law.stiffness, self.compliance),
             _ => self.part_of_line(total),
@@ -104,7 +103,7 @@ impl CompliantContact {
     /// As [`Self::part`], of a line contact. Not inlined: with it balls' steps would be too large to be inlined, and
     /// lose the instructions of the machine they run on.
     #[inline(never)]
-    fn part_of_line(&self, total: f64) -> Part {
+    fn part_of_line(&self, total: f64) -> Part<f64> {
         let mut approach = total;
         for _ in 0..ITERATIONS {
             let excess = approach + self.compliance * self.law.elastic(approach) - total;
@@ -123,17 +122,17 @@ impl CompliantContact {
 
 /// The contact's part of an approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Part {
+struct Part<T> {
     /// δ (m).
-    approach: f64,
+    approach: T,
     /// s = dδ/dΔ, between 0 and 1.
-    share: f64,
+    share: T,
 }
 
 /// The part of the approach `total` ≥ 0 (m) that a contact of Hertz constant `stiffness` (N/m^1.5) takes in series with
 /// `compliance` (m/N).
 #[inline(always)]
-fn part(total: f64, stiffness: f64, compliance: f64) -> Part {
+fn part(total: f64, stiffness: f64, compliance: f64) -> Part<f64> {
     let beta = compliance * stiffness * total.sqrt();
     let z = root(beta);
     Part { approach: total / (z * z), share: 1.0 / (1.0 + 1.5 * beta / z) }
@@ -161,6 +160,7 @@ fn root(beta: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::contact::law::crown::Crown;
+    use crate::numerics::number::Dual;
     use crate::scene::Damping;
     use proptest::prelude::*;
     use std::sync::{Arc, LazyLock};
@@ -215,7 +215,8 @@ mod tests {
         fn derivatives_equal_difference_quotients(delta in 1e-7..1e-4f64, rate in -1.5..5.0f64) {
             for law in &*CONTACTS {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
-                let force = law.with_derivatives(delta, rate);
+                let dual = Dual::<f64, 2>::variable;
+                let force = law.force(dual(delta, 0), dual(rate, 1));
                 let crowned = matches!(law.law.elasticity, Elasticity::Crowned(_));
                 // A crown's second derivative jumps where a step of its table ends, felt less by short differences.
                 let (d, v) = (if crowned { 1e-6 } else { 1e-5 } * delta, 1e-3);
@@ -228,9 +229,9 @@ mod tests {
                 // On the step itself, where damping has the elastic force's slope, the derivative is one side's, and
                 // the quotient lies between both.
                 let ends = if crowned { [delta - d, delta + d] } else { [delta; 2] };
-                let [a, b] = ends.map(|delta| law.with_derivatives(delta, rate).by_approach);
+                let [a, b] = ends.map(|delta| law.force(dual(delta, 0), dual(rate, 1)).by[0]);
                 prop_assert!(a.min(b) - limit * unit < by_approach && by_approach < a.max(b) + limit * unit);
-                prop_assert!((force.by_rate - by_rate).abs() < 1e-7 * by_rate.abs());
+                prop_assert!((force.by[1] - by_rate).abs() < 1e-7 * by_rate.abs());
                 let elastic = (law.elastic(delta + d) - law.elastic(delta - d)) / (2.0 * d);
                 let limit = if crowned { 1e-3 } else { 1e-9 };
                 prop_assert!((law.elastic_stiffness(delta) / elastic - 1.0).abs() < limit);
@@ -268,7 +269,10 @@ mod tests {
                 assert_eq!(bits(law.pushing(delta, rate)), bits(alone.pushing(delta, rate)));
                 assert_eq!(bits(law.elastic(delta)), bits(alone.elastic(delta)));
                 assert_eq!(bits(law.elastic_stiffness(delta)), bits(alone.elastic_stiffness(delta)));
-                assert_eq!(law.with_derivatives(delta, rate), alone.with_derivatives(delta, rate));
+                let dual = Dual::<f64, 2>::variable;
+                let [whole, own] =
+                    [law.force(dual(delta, 0), dual(rate, 1)), alone.force(dual(delta, 0), dual(rate, 1))];
+                assert_eq!(whole, own);
             }
         }
     }

@@ -13,6 +13,7 @@
 //! itself above the mean depth and by 5e-5 above a tenth of it, in those steps alone, where the stiffness is wrong by 2
 //! and by 6 %; 40 laminae and 640 differ by 2e-4. The force is one of one variable, so its energy is its integral.
 
+use crate::geometry::line_contact::LINE_ORDER;
 use crate::numerics::ninth_root;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -47,7 +48,7 @@ pub struct Carrying {
     /// Of δ Q′.
     pub slope: f64,
     /// Of δ² Q″.
-    pub bend: f64,
+    pub second: f64,
 }
 
 impl Crown {
@@ -85,11 +86,21 @@ impl Crown {
         self.mean_depth
     }
 
-    /// c and the order n = δ Q′/Q of the force at an approach (m), 10/9 where nothing carries.
+    /// c and the order n = δ Q′/Q of the force at an approach (m), 10/9 where nothing carries; or their derivatives by
+    /// the approach of the given `order`. The second derivative of n is left out: it jumps at every step of the table,
+    /// and no contact at rest asks for it.
     #[inline(always)]
-    pub fn part_and_order(&self, delta: f64) -> [f64; 2] {
-        let Carrying { part, slope, .. } = self.carrying(delta);
-        [part, if part > 0.0 { slope / part } else { 10.0 / 9.0 }]
+    pub fn part_and_order(&self, delta: f64, order: usize) -> [f64; 2] {
+        let Carrying { part, slope, second } = self.carrying(delta);
+        let n = if part > 0.0 { slope / part } else { LINE_ORDER };
+        // δ c′ and δ n′ from c, δ Q′ and δ² Q″, all over K δ^(10/9).
+        let by_ln = slope - LINE_ORDER * part;
+        match order {
+            0 => [part, n],
+            _ if part <= 0.0 => [0.0; 2],
+            1 => [by_ln / delta, (n + second / part - n * n) / delta],
+            _ => [(second - 2.0 * LINE_ORDER * by_ln - (LINE_ORDER - 1.0) * LINE_ORDER * part) / (delta * delta), 0.0],
+        }
     }
 
     /// What carries at an approach (m) that is not negative.
@@ -98,7 +109,7 @@ impl Crown {
         let square = delta / (delta + self.mean_depth);
         let s = square.sqrt();
         let steps = s * NODES as f64;
-        // What is no number has piece 0 and stays none.
+        // NaN has piece 0 and stays NaN.
         let piece = (steps as usize).min(NODES - 1);
         let t = steps - piece as f64;
         let [a, b, c, d] = self.cubics[piece];
@@ -108,8 +119,8 @@ impl Crown {
         // δ ds/dδ = s (1 − s²)/2, and its derivative by s.
         let (pace, pace_by_s) = (0.5 * s * (1.0 - square), 0.5 - 1.5 * square);
         let slope = 10.0 / 9.0 * part + pace * by_s;
-        let bend = slope / 9.0 + pace * ((10.0 / 9.0 + pace_by_s) * by_s + pace * by_s_twice);
-        Carrying { part, slope, bend }
+        let second = slope / 9.0 + pace * ((10.0 / 9.0 + pace_by_s) * by_s + pace * by_s_twice);
+        Carrying { part, slope, second }
     }
 }
 
@@ -220,6 +231,7 @@ mod tests {
             assert!((crown.carrying(delta).part / expected - 1.0).abs() < 1e-9, "{delta}");
         }
         assert!(crown.carrying(f64::NAN).part.is_nan());
-        assert_eq!(crown.part_and_order(0.0), [0.0, 10.0 / 9.0]);
+        assert_eq!(crown.part_and_order(0.0, 0), [0.0, 10.0 / 9.0]);
+        assert_eq!(crown.part_and_order(0.0, 1), [0.0; 2]);
     }
 }

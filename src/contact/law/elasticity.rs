@@ -9,18 +9,15 @@
 //! it.
 
 use super::crown::Crown;
-use crate::numerics::ninth_root;
+use crate::geometry::line_contact::LINE_ORDER;
 use crate::numerics::number::Number;
 use std::sync::Arc;
-
-/// Order of a line contact.
-pub const LINE_ORDER: f64 = 10.0 / 9.0;
 
 /// Growth of a contact's force, chosen where code is compiled.
 pub trait Elastic: Copy {
     /// Secant stiffness Q/δ (N/m) and order δ Q′/Q of a contact of this constant K at an approach (m) that is not
     /// negative.
-    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2];
+    fn secant_and_order<T: Number>(&self, stiffness: T::Plain, delta: T) -> [T; 2];
 }
 
 /// A ball in a groove.
@@ -33,19 +30,19 @@ pub struct Line<'c>(pub Option<&'c Crown>);
 
 impl Elastic for Point {
     #[inline(always)]
-    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2] {
-        [stiffness * delta.sqrt(), delta.all(1.5)]
+    fn secant_and_order<T: Number>(&self, stiffness: T::Plain, delta: T) -> [T; 2] {
+        [delta.sqrt() * stiffness, delta.all(1.5)]
     }
 }
 
 impl Elastic for Line<'_> {
     #[inline(always)]
-    fn secant_and_order<T: Number>(&self, stiffness: T, delta: T) -> [T; 2] {
-        let straight = stiffness * delta.each(ninth_root);
+    fn secant_and_order<T: Number>(&self, stiffness: T::Plain, delta: T) -> [T; 2] {
+        let straight = delta.ninth_root() * stiffness;
         match self.0 {
             None => [straight, delta.all(LINE_ORDER)],
             Some(crown) => {
-                let [part, order] = delta.each_pair(|delta| crown.part_and_order(delta));
+                let [part, order] = delta.pair(0, &|delta, order| crown.part_and_order(delta, order));
                 [straight * part, order]
             }
         }
@@ -76,21 +73,10 @@ impl Elasticity {
 
     /// Secant stiffness (N/m) and order, as [`Elastic::secant_and_order`].
     #[inline(always)]
-    pub fn secant_and_order(&self, stiffness: f64, delta: f64) -> [f64; 2] {
+    pub fn secant_and_order<T: Number>(&self, stiffness: T::Plain, delta: T) -> [T; 2] {
         match self.line() {
             None => Point.secant_and_order(stiffness, delta),
             Some(line) => line.secant_and_order(stiffness, delta),
-        }
-    }
-
-    /// Q″ (N/m²) of a contact of this constant at an approach (m) above 0.
-    #[inline]
-    pub fn second_derivative(&self, stiffness: f64, delta: f64) -> f64 {
-        let straight = || stiffness * ninth_root(delta) / delta;
-        match self {
-            Self::Point => 0.75 * stiffness / delta.sqrt(),
-            Self::Line => 10.0 / 81.0 * straight(),
-            Self::Crowned(crown) => straight() * crown.carrying(delta).bend,
         }
     }
 }

@@ -14,48 +14,48 @@
 //! contact with its stiffness, and knows derivatives too.
 
 use super::elasticity::{Elastic, Elasticity, Line, Point};
+use crate::numerics::number::Dual;
 use crate::numerics::number::Number;
+use crate::numerics::number::Scalar;
 use crate::scene::Damping;
 
 /// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude (m).
 pub(crate) const PUSHING_LENGTH: f64 = 1e-6;
 
-/// How contacts of one elasticity are damped, whatever their stiffness; for single numbers or for lanes.
+/// How contacts of one elasticity are damped, whatever their stiffness; for numbers of every kind. Constants are `P`.
 #[derive(Debug, Clone, Copy)]
-pub struct DampedLaw<T, E = Point> {
+pub struct DampedLaw<P, E = Point> {
     elastic: E,
     damping: Damping,
     /// χ (s/m) and τ (s).
-    chi: T,
-    tau: T,
-    one: T,
-    zero: T,
-    pushing_length: T,
+    chi: P,
+    tau: P,
 }
 
-impl<T: Number, E: Elastic> DampedLaw<T, E> {
-    /// `splat` makes a `T` of a number.
+impl<P: Number, E: Elastic> DampedLaw<P, E> {
+    /// `splat` makes a constant of a number.
     #[inline(always)]
-    pub fn new(damping: Damping, elastic: E, splat: impl Fn(f64) -> T) -> Self {
-        let (chi, tau) = match damping {
-            Damping::HuntCrossley(chi) => (chi, 0.0),
-            Damping::Proportional(tau) => (0.0, tau),
+    pub fn new(damping: Damping, elastic: E, splat: impl Fn(f64) -> P) -> Self {
+        let [chi, tau] = match damping {
+            Damping::HuntCrossley(chi) => [chi, 0.0],
+            Damping::Proportional(tau) => [0.0, tau],
         };
-        let [chi, tau, one, zero, pushing_length] = [chi, tau, 1.0, 0.0, PUSHING_LENGTH].map(splat);
-        Self { elastic, damping, chi, tau, one, zero, pushing_length }
+        Self { elastic, damping, chi: splat(chi), tau: splat(tau) }
     }
 
     /// Force (N) of a contact of constant `stiffness` (N/m^n) at approach `delta` (m) and its rate (m/s).
     #[inline(always)]
-    pub fn force(&self, stiffness: T, delta: T, rate: T) -> T {
+    pub fn force<T: Number<Plain = P>>(&self, stiffness: P, delta: T, rate: T) -> T {
         let delta = delta.or_zero();
         let [secant, order] = self.elastic.secant_and_order(stiffness, delta);
-        secant * (delta + (self.chi * delta + order * self.tau) * rate).or_zero()
+        secant * (delta + (delta * self.chi + order * self.tau) * rate).or_zero()
     }
+}
 
+impl<P: Number<Plain = P>, E: Elastic> DampedLaw<P, E> {
     /// What damping adds (N) to an elastic force (N) of this tangent stiffness (N/m) at a rate of approach (m/s).
     #[inline(always)]
-    pub fn damping_of(&self, force: T, stiffness: T, rate: T) -> T {
+    pub fn damping_of(&self, force: P, stiffness: P, rate: P) -> P {
         (self.chi * force + self.tau * stiffness) * rate
     }
 
@@ -63,26 +63,15 @@ impl<T: Number, E: Elastic> DampedLaw<T, E> {
     ///
     /// It is continuous in both arguments, so that the moment of change can be located as its root.
     #[inline(always)]
-    pub fn pushing(&self, delta: T, rate: T) -> T {
+    pub fn pushing(&self, delta: P, rate: P) -> P {
         match self.damping {
-            Damping::HuntCrossley(_) => delta.at_most(self.pushing_length * (self.one + self.chi * rate)),
+            Damping::HuntCrossley(_) => delta.at_most(delta.all(PUSHING_LENGTH) * (delta.all(1.0) + self.chi * rate)),
             Damping::Proportional(_) => {
-                let [_, order] = self.elastic.secant_and_order(self.one, delta.or_zero());
-                delta + (order * self.tau * rate).at_most(self.zero)
+                let [_, order] = self.elastic.secant_and_order(delta.all(1.0), delta.or_zero());
+                delta + (order * self.tau * rate).at_most(delta.all(0.0))
             }
         }
     }
-}
-
-/// Force and its derivatives with respect to approach and rate of approach.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Force {
-    /// Q (N)
-    pub value: f64,
-    /// ∂Q/∂δ (N/m)
-    pub by_approach: f64,
-    /// ∂Q/∂δ̇ (N s/m)
-    pub by_rate: f64,
 }
 
 /// An elastic contact with damping.
@@ -99,26 +88,20 @@ pub struct ForceLaw {
 impl ForceLaw {
     /// Elastic force (N) at approach `delta` (m).
     #[inline]
-    pub fn elastic(&self, delta: f64) -> f64 {
-        let delta = delta.or_zero();
+    pub fn elastic<T: Scalar>(&self, delta: T) -> T {
+        let (delta, stiffness) = (delta.or_zero(), T::Plain::from(self.stiffness));
         match self.elasticity {
             // The factors in the order in which the results of balls have their bits.
-            Elasticity::Point => self.stiffness * delta * delta.sqrt(),
-            _ => self.secant_and_order(delta)[0] * delta,
+            Elasticity::Point => delta * stiffness * delta.sqrt(),
+            _ => self.elasticity.secant_and_order(stiffness, delta)[0] * delta,
         }
     }
 
     /// Elastic tangent stiffness (N/m) at approach `delta` (m).
     #[inline]
-    pub fn elastic_stiffness(&self, delta: f64) -> f64 {
-        let delta = delta.or_zero();
-        match self.elasticity {
-            Elasticity::Point => 1.5 * self.stiffness * delta.sqrt(),
-            _ => {
-                let [secant, order] = self.secant_and_order(delta);
-                order * secant
-            }
-        }
+    pub fn elastic_stiffness<T: Scalar>(&self, delta: T) -> T {
+        let [secant, order] = self.elasticity.secant_and_order(T::Plain::from(self.stiffness), delta.or_zero());
+        order * secant
     }
 
     /// Elastic tangent stiffness (N/m) under an elastic force (N); of a ball 1.5 K^⅔ Q^⅓.
@@ -132,7 +115,7 @@ impl ForceLaw {
     /// Change of the elastic tangent stiffness with the approach (N/m²), at approach `delta` (m) above 0.
     #[inline]
     pub fn hardening(&self, delta: f64) -> f64 {
-        self.elasticity.second_derivative(self.stiffness, delta)
+        self.elastic_stiffness(Dual::<f64, 1>::variable(delta, 0)).by[0]
     }
 
     /// The approach (m) at which the elastic force is `force` (N), by Newton's method from above: the force is convex.
@@ -157,9 +140,9 @@ impl ForceLaw {
 
     /// Force (N) at approach `delta` (m) and its rate (m/s).
     #[inline(always)]
-    pub fn force(&self, delta: f64, rate: f64) -> f64 {
+    pub fn force<T: Scalar>(&self, delta: T, rate: T) -> T {
         match self.elasticity.line() {
-            None => DampedLaw::new(self.damping, Point, |number| number).force(self.stiffness, delta, rate),
+            None => self.force_of(Point, delta, rate),
             Some(line) => self.line_force(line, delta, rate),
         }
     }
@@ -167,55 +150,13 @@ impl ForceLaw {
     /// Not inlined: with it balls' steps would be too large to be inlined, and lose the instructions of the machine
     /// they run on.
     #[inline(never)]
-    fn line_force(&self, line: Line<'_>, delta: f64, rate: f64) -> f64 {
-        DampedLaw::new(self.damping, line, |number| number).force(self.stiffness, delta, rate)
+    fn line_force<T: Scalar>(&self, line: Line<'_>, delta: T, rate: T) -> T {
+        self.force_of(line, delta, rate)
     }
 
     #[inline(always)]
-    fn secant_and_order(&self, delta: f64) -> [f64; 2] {
-        self.elasticity.secant_and_order(self.stiffness, delta)
-    }
-
-    /// Force with its derivatives.
-    pub fn with_derivatives(&self, delta: f64, rate: f64) -> Force {
-        if self.pushing(delta, rate) <= 0.0 {
-            return Force::default();
-        }
-        if !matches!(self.elasticity, Elasticity::Point) {
-            return self.line_with_derivatives(delta, rate);
-        }
-        // As for a line contact, but written out: results of balls depend on this order of the factors to the last bit.
-        let root = self.stiffness * delta.sqrt();
-        match self.damping {
-            Damping::HuntCrossley(chi) => Force {
-                value: root * delta * (1.0 + chi * rate),
-                by_approach: 1.5 * root * (1.0 + chi * rate),
-                by_rate: chi * root * delta,
-            },
-            Damping::Proportional(tau) => Force {
-                value: root * (delta + 1.5 * tau * rate),
-                by_approach: root * (1.5 + 0.75 * tau * rate / delta),
-                by_rate: 1.5 * tau * root,
-            },
-        }
-    }
-
-    /// As [`with_derivatives`](Self::with_derivatives), of a line contact that pushes.
-    fn line_with_derivatives(&self, delta: f64, rate: f64) -> Force {
-        let [secant, order] = self.secant_and_order(delta);
-        let (elastic, stiffness) = (secant * delta, order * secant);
-        match self.damping {
-            Damping::HuntCrossley(chi) => Force {
-                value: elastic * (1.0 + chi * rate),
-                by_approach: stiffness * (1.0 + chi * rate),
-                by_rate: chi * elastic,
-            },
-            Damping::Proportional(tau) => Force {
-                value: elastic + tau * stiffness * rate,
-                by_approach: stiffness + tau * self.hardening(delta) * rate,
-                by_rate: tau * stiffness,
-            },
-        }
+    fn force_of<T: Scalar>(&self, elastic: impl Elastic, delta: T, rate: T) -> T {
+        DampedLaw::new(self.damping, elastic, T::Plain::from).force(T::Plain::from(self.stiffness), delta, rate)
     }
 
     /// As [`DampedLaw::pushing`].
@@ -270,7 +211,8 @@ mod tests {
         fn derivatives_equal_difference_quotients(delta in 1e-7..1e-4f64, rate in -1.5..5.0f64) {
             for law in &*LAWS {
                 prop_assume!(law.pushing(delta, rate) > 1e-8);
-                let force = law.with_derivatives(delta, rate);
+                let dual = Dual::<f64, 2>::variable;
+                let force = law.force(dual(delta, 0), dual(rate, 1));
                 let crowned = matches!(law.elasticity, Elasticity::Crowned(_));
                 // A crown's second derivative jumps where a step of its table ends, felt less by short differences.
                 let (d, v) = (if crowned { 1e-6 } else { 1e-5 } * delta, 1e-6);
@@ -279,15 +221,15 @@ mod tests {
                 // Second-order quotients: relative truncation 1e-10, rounding 1e-16/1e-6.
                 prop_assert!((force.value - law.force(delta, rate)).abs() <= 1e-14 * force.value);
                 let limit = if crowned { 1e-3 } else { 1e-7 };
-                let unit = force.by_approach.abs() + 0.1 * law.elastic_stiffness(delta);
-                prop_assert!((force.by_approach - by_approach).abs() < limit * unit);
-                prop_assert!((force.by_rate - by_rate).abs() < 1e-7 * by_rate.abs());
+                let unit = force.by[0].abs() + 0.1 * law.elastic_stiffness(delta);
+                prop_assert!((force.by[0] - by_approach).abs() < limit * unit);
+                prop_assert!((force.by[1] - by_rate).abs() < 1e-7 * by_rate.abs());
             }
         }
     }
 
     #[test]
-    fn an_approach_that_is_no_number_gives_no_force_that_is_one() {
+    fn an_approach_that_is_nan_gives_a_force_that_is_nan() {
         for law in &*LAWS {
             assert!(law.force(f64::NAN, 0.0).is_nan() && law.force(1e-6, f64::NAN).is_nan());
             assert!(law.elastic(f64::NAN).is_nan() && law.elastic_stiffness(f64::NAN).is_nan());

@@ -10,10 +10,9 @@ mod squeeze_film;
 
 pub use compliant::CompliantContact;
 pub use crown::{Carrying, Crown};
-pub use elasticity::{Elastic, Elasticity, LINE_ORDER, Line, Point};
-pub use force_law::{DampedLaw, Force, ForceLaw};
+pub use elasticity::{Elastic, Elasticity, Line, Point};
+pub use force_law::{DampedLaw, ForceLaw};
 pub use smooth_laws::{elastic_law, smooth_laws};
 pub use squeeze_film::SqueezeFilm;
 
 pub(crate) use force_law::PUSHING_LENGTH;
-pub(crate) use squeeze_film::ROUGHNESS;

@@ -46,25 +46,28 @@ const ONSET: f64 = 0.015;
 /// The contact of an element with one raceway, solved when asked.
 #[derive(Debug, Clone)]
 pub struct LoveContact {
-    layers: Vec<Layer>,
+    pub(super) layers: Vec<Layer>,
     largest_approach: f64,
     /// n of a force that grows as δ^n.
     order: f64,
     /// Distance from edges within which they make the raceway softer (m).
     soft_reach: f64,
-    smooth: SmoothScale,
+    pub(super) smooth: SmoothScale,
     solves: u64,
 }
 
 /// One grid with its solver.
 #[derive(Debug, Clone)]
-struct Layer {
-    grid: RacewayGrid,
+pub(super) struct Layer {
+    pub(super) grid: RacewayGrid,
     softness: Option<Softness>,
-    solver: ActiveSet,
+    pub(super) solver: ActiveSet,
     interference: Vec<f64>,
     slopes: Vec<f64>,
-    unit: Vec<f64>,
+    /// Right-hand side on the pressed cells.
+    pub(super) unit: Vec<f64>,
+    /// Of the last contact.
+    pub(super) energy: Energy,
 }
 
 /// Softness of the edges of one raceway.
@@ -170,12 +173,16 @@ impl LoveContact {
     /// solved.
     pub fn solve(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
         let touch = self.first_touch(s);
-        let far = touch - 0.1 * self.largest_approach;
-        if u < far {
+        if self.is_far(u, touch) {
             // No contact within reach: how far off it is, and no more.
             return Ok(EquivalentApproach::flat(u, touch));
         }
         self.solve_or_continue(u, s, touch)
+    }
+
+    /// Whether no contact is within reach at a path, the first touch being at another (m).
+    pub(super) fn is_far(&self, u: f64, touch: f64) -> bool {
+        u < touch - 0.1 * self.largest_approach
     }
 
     /// As [`LoveContact::solve`], but with the first-order continuation however far off the contact is.
@@ -195,15 +202,22 @@ impl LoveContact {
 
     /// First-order continuation from the path at which Δ has the onset's small value.
     fn below_onset(&mut self, u: f64, s: f64, touch: f64) -> Result<EquivalentApproach, ContactError> {
+        let (at, found) = self.at_onset(s, touch)?;
+        let value = found.value + found.du * (u - at);
+        Ok(EquivalentApproach { value, du: found.du, ds: found.ds, ..EquivalentApproach::default() })
+    }
+
+    /// The path (m) at which Δ has the onset's small value, and Δ there.
+    pub(super) fn at_onset(&mut self, s: f64, touch: f64) -> Result<(f64, EquivalentApproach), ContactError> {
         let onset = self.smooth.onset();
         let (mut low, mut high) = (touch, f64::INFINITY);
         let mut at = touch + onset;
         let mut iterations = 0;
-        let found = loop {
+        loop {
             let found = self.equivalent(at, s)?;
             let miss = found.value - onset;
             if miss.abs() < 1e-9 * onset {
-                break found;
+                return Ok((at, found));
             }
             if miss > 0.0 {
                 high = at
@@ -222,12 +236,10 @@ impl LoveContact {
             } else {
                 at + onset
             };
-        };
-        let value = found.value + found.du * (u - at);
-        Ok(EquivalentApproach { value, du: found.du, ds: found.ds, ..EquivalentApproach::default() })
+        }
     }
 
-    fn equivalent(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
+    pub(super) fn equivalent(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
         let energy = self.energy(u, s)?;
         let approach = self.smooth.equivalent(energy);
         if !(approach.value <= self.largest_approach * (1.0 + 1e-9)) {
@@ -299,6 +311,7 @@ impl Layer {
             interference: Vec::with_capacity(rows * columns),
             slopes: Vec::with_capacity(columns),
             unit: Vec::new(),
+            energy: Energy::default(),
         })
     }
 
@@ -317,7 +330,8 @@ impl Layer {
             let rows = self.grid.rows();
             let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
             if !self.grid.can_widen() || !self.solver.runs().iter().any(|run| border(run.row)) {
-                return Ok(self.collect(span.first));
+                self.energy = self.collect(span.first);
+                return Ok(self.energy);
             }
             // The contact is wider than the grid across the raceway: more rows, and once more.
             let half = self.grid.half_rows();

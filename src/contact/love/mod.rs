@@ -9,6 +9,7 @@ mod half_space;
 pub mod love_contact;
 mod raceway_grid;
 mod row_pairs;
+mod second_derivatives;
 mod smooth_scale;
 mod soft_edges;
 

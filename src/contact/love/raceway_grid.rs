@@ -306,6 +306,12 @@ impl RacewayGrid {
         (2.0 * reach / self.cell[0]).ceil() as usize + 2
     }
 
+    /// First and second derivative (–, 1/m) of the gap in a column by t = x − s, the element at arc `s` (m).
+    pub(super) fn gap_derivatives(&self, column: i32, s: f64) -> [f64; 2] {
+        let t = self.centre(column) - s;
+        [self.element.along(t)[1], self.element.along_second(t)]
+    }
+
     fn depth_row(&self, row: usize) -> &[f64] {
         let row = if self.mirrored { 0 } else { row };
         &self.depth[row * self.depth_columns..(row + 1) * self.depth_columns]

@@ -2,7 +2,7 @@
 
 use libm::pow;
 
-use crate::contact::equivalent::EquivalentApproach;
+use crate::contact::equivalent::{EquivalentApproach, SecondDerivatives};
 
 /// Energy of the grid and its derivatives, without the factor π E* × cell area.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,6 +22,25 @@ impl Energy {
         self.s += part * other.s;
         self.uu += part * other.uu;
         self.us += part * other.us;
+    }
+}
+
+/// Δ(V(W)) at one W.
+struct LocalScale {
+    value: f64,
+    /// dΔ/dV and d²Δ/dV².
+    slope: f64,
+    curvature: f64,
+    /// dV/dW and d²V/dW².
+    per_w: f64,
+    second: f64,
+}
+
+impl LocalScale {
+    /// ∂²Δ/∂x∂y from ∂²W/∂x∂y, ∂W/∂x and ∂W/∂y.
+    fn second_derivative(&self, w_xy: f64, w_x: f64, w_y: f64) -> f64 {
+        let v_xy = self.per_w * w_xy + self.second * w_x * w_y;
+        self.slope * v_xy + self.curvature * (self.per_w * w_x) * (self.per_w * w_y)
     }
 }
 
@@ -49,21 +68,34 @@ impl SmoothScale {
         if e.w <= 0.0 {
             return EquivalentApproach::default();
         }
-        let v = pow(e.w, self.power);
-        // V as a function of u and s.
-        let per_w = self.power * v / e.w;
-        let bend = (self.power - 1.0) * per_w / e.w;
-        let (v_u, v_s) = (per_w * e.u, per_w * e.s);
-        let v_uu = per_w * e.uu + bend * e.u * e.u;
-        let v_us = per_w * e.us + bend * e.u * e.s;
-        let [value, slope, curvature] = self.at(v);
+        let scale = self.local(e.w);
         EquivalentApproach {
-            value,
-            du: slope * v_u,
-            ds: slope * v_s,
-            duu: slope * v_uu + curvature * v_u * v_u,
-            dus: slope * v_us + curvature * v_u * v_s,
+            value: scale.value,
+            du: scale.slope * (scale.per_w * e.u),
+            ds: scale.slope * (scale.per_w * e.s),
+            duu: scale.second_derivative(e.uu, e.u, e.u),
+            dus: scale.second_derivative(e.us, e.u, e.s),
         }
+    }
+
+    /// Second derivatives of the equivalent approach of an energy, of which `second` are the second derivatives.
+    pub(super) fn second_derivatives(&self, e: Energy, second: SecondDerivatives) -> SecondDerivatives {
+        if e.w <= 0.0 {
+            return SecondDerivatives::default();
+        }
+        let scale = self.local(e.w);
+        SecondDerivatives {
+            uu: scale.second_derivative(second.uu, e.u, e.u),
+            us: scale.second_derivative(second.us, e.u, e.s),
+            ss: scale.second_derivative(second.ss, e.s, e.s),
+        }
+    }
+
+    fn local(&self, w: f64) -> LocalScale {
+        let v = pow(w, self.power);
+        let per_w = self.power * v / w;
+        let [value, slope, curvature] = self.at(v);
+        LocalScale { value, slope, curvature, per_w, second: (self.power - 1.0) * per_w / w }
     }
 
     /// Δ, dΔ/dV, d²Δ/dV².

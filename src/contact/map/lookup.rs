@@ -155,7 +155,7 @@ impl ContactMap {
     }
 
     #[cold]
-    fn out_of_range(&self, approach: f64) -> ContactError {
+    pub(super) fn out_of_range(&self, approach: f64) -> ContactError {
         ContactError::OutOfRange {
             quantity: "equivalent approach in the contact map",
             value: approach,
@@ -178,8 +178,9 @@ impl Patch {
         Self { start, size, per_metre: size.map(|side| 1.0 / side), lowest, strips, last_strip, cells, leaves }
     }
 
-    #[inline]
-    fn lookup(&self, u: f64, s: f64) -> Option<EquivalentApproach> {
+    /// Where in the patch a path and an arc lie.
+    #[inline(always)]
+    pub(super) fn place(&self, u: f64, s: f64) -> Option<Place<'_>> {
         let [mut per_arc, mut per_path] = self.per_metre;
         let along = (s - self.start) * per_arc;
         let (k, from) = whole_part(along, self.last_strip);
@@ -188,6 +189,7 @@ impl Patch {
         let [c0, c1, c2, c3] = strip.reference;
         let reference = (c0 + q * c1) + (q * q) * (c2 + q * c3);
         let slope = (c1 + q * (2.0 * c2 + q * (3.0 * c3))) * per_arc;
+        let second = (2.0 * c2 + 6.0 * q * c3) * per_arc * per_arc;
         let height = (u - reference) * per_path - self.lowest;
         let inside = height.max(0.0).min(strip.rows);
         let (row, below) = whole_part(inside, strip.rows - 1.0);
@@ -204,9 +206,15 @@ impl Patch {
                 }
             }
         };
+        Some(Place { leaf, q, t, per_arc, per_path, beyond: height - inside, slope, second })
+    }
+
+    #[inline]
+    fn lookup(&self, u: f64, s: f64) -> Option<EquivalentApproach> {
+        let Place { leaf, q, t, per_arc, per_path, beyond, slope, .. } = self.place(u, s)?;
         let mut f = evaluate(leaf, q, t, per_arc, per_path);
-        if height != inside {
-            let beyond = (height - inside) * self.size[1];
+        if beyond != 0.0 {
+            let beyond = beyond * self.size[1];
             // Beyond the nodes the edge is continued by its slope.
             f.value += f.du * beyond;
             f.ds += f.dus * beyond;
@@ -223,6 +231,21 @@ impl Patch {
     }
 }
 
+/// A place in a patch: its cell, and the reference path there.
+pub(super) struct Place<'a> {
+    pub(super) leaf: &'a Cubic,
+    /// Where in the cell, from 0 to 1 along the raceway and along the path, and how much these grow a metre.
+    pub(super) q: f64,
+    pub(super) t: f64,
+    pub(super) per_arc: f64,
+    pub(super) per_path: f64,
+    /// Distance above the highest nodes or, negative, below the lowest, in heights of a coarse cell.
+    pub(super) beyond: f64,
+    /// T′ and T″ (1/m).
+    pub(super) slope: f64,
+    pub(super) second: f64,
+}
+
 /// The whole number below `x`, at least 0 and at most `last`, as an index and as a number; for a whole `x` it may be
 /// the one before. Adding 1.5 × 2⁵² leaves it in the low bits: half the instructions of two conversions.
 #[inline(always)]
@@ -235,6 +258,19 @@ fn whole_part(x: f64, last: f64) -> (usize, f64) {
 /// Value and derivatives of a cubic whose q and t grow by `per_arc` and `per_path` a metre.
 #[inline(always)]
 pub(super) fn evaluate(c: &Cubic, q: f64, t: f64, per_arc: f64, per_path: f64) -> EquivalentApproach {
+    let [value, by_t, by_tt] = along_path(c, t);
+    EquivalentApproach {
+        value: value_at(&value, q),
+        du: value_at(&by_t, q) * per_path,
+        ds: slope_at(&value, q) * per_arc,
+        duu: value_at(&by_tt, q) * per_path * per_path,
+        dus: slope_at(&by_t, q) * per_path * per_arc,
+    }
+}
+
+/// Coefficients of q⁰ … q³ at one t: of the value, and of its first and second derivative by t.
+#[inline(always)]
+pub(super) fn along_path(c: &Cubic, t: f64) -> [[f64; 4]; 3] {
     let (mut value, mut by_t, mut by_tt) = ([0.0; 4], [0.0; 4], [0.0; 4]);
     for i in 0..4 {
         let (c0, c1, c2, c3) = (c[0][i], c[1][i], c[2][i], c[3][i]);
@@ -245,13 +281,17 @@ pub(super) fn evaluate(c: &Cubic, q: f64, t: f64, per_arc: f64, per_path: f64) -
         by_t[i] = middle + t * inner;
         by_tt[i] = 2.0 * (inner + t * c3);
     }
-    let at = |p: &[f64; 4]| (p[0] + q * p[1]) + (q * q) * (p[2] + q * p[3]);
-    let slope = |p: &[f64; 4]| p[1] + q * (2.0 * p[2] + 3.0 * q * p[3]);
-    EquivalentApproach {
-        value: at(&value),
-        du: at(&by_t) * per_path,
-        ds: slope(&value) * per_arc,
-        duu: at(&by_tt) * per_path * per_path,
-        dus: slope(&by_t) * per_path * per_arc,
-    }
+    [value, by_t, by_tt]
+}
+
+/// A cubic at q.
+#[inline(always)]
+pub(super) fn value_at(p: &[f64; 4], q: f64) -> f64 {
+    (p[0] + q * p[1]) + (q * q) * (p[2] + q * p[3])
+}
+
+/// Its derivative.
+#[inline(always)]
+pub(super) fn slope_at(p: &[f64; 4], q: f64) -> f64 {
+    p[1] + q * (2.0 * p[2] + 3.0 * q * p[3])
 }

@@ -8,6 +8,7 @@ mod format;
 pub mod lookup;
 mod patch_plan;
 mod plan;
+mod second_derivatives;
 mod specification;
 
 pub use contact_maps::ContactMaps;

@@ -5,7 +5,8 @@
 //!
 //! A lane without an element has stiffness 0 and no derivative.
 
-use super::gap_lanes::{Distance, dot, radial};
+use super::directions::{dot, radial};
+use super::kernel::InnerGap;
 use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
@@ -120,10 +121,10 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer. If `SPECIAL`, each element has a speed of its own and contacts may have
-    /// films.
+    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed of its own and contacts may
+    /// have films.
     #[inline(always)]
-    pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const SPECIAL: bool>(
+    pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
         &self,
         simd: S,
         now: &Kinematics,
@@ -134,7 +135,7 @@ impl Model {
     ) -> [f64; 4] {
         // A function of its own, so that nothing of it is in the way of balls.
         if let Some(line) = self.inner.contact.law.elasticity.line() {
-            return simd.outlined(Rollers::<RECORD, SPECIAL> {
+            return simd.outlined(Rollers::<RECORD, UNEVEN_OR_OILED> {
                 model: self,
                 line,
                 now: &{ *now },
@@ -145,12 +146,19 @@ impl Model {
                 contacts,
             });
         }
-        self.contacts_of::<S, Point, RECORD, SPECIAL>(simd, Point, now, stage, derivative, (elements, films, contacts))
+        self.contacts_of::<S, Point, RECORD, UNEVEN_OR_OILED>(
+            simd,
+            Point,
+            now,
+            stage,
+            derivative,
+            (elements, films, contacts),
+        )
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
     #[inline(always)]
-    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const SPECIAL: bool>(
+    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
         &self,
         simd: S,
         elastic: E,
@@ -163,11 +171,11 @@ impl Model {
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let series = self.nearly_concentric(offset);
         // Of elements with speeds of their own the second part is theirs.
-        let omega = if SPECIAL { 0.0 } else { omega };
+        let omega = if UNEVEN_OR_OILED { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let clearance = if SPECIAL { self.clearance(films) } else { self.radial_clearance };
-        let films = if SPECIAL { films.map(|films| films.squeeze) } else { None };
+        let clearance = if UNEVEN_OR_OILED { self.clearance(films) } else { self.radial_clearance };
+        let films = if UNEVEN_OR_OILED { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
         let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::default();
@@ -182,7 +190,8 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts::<S, SPECIAL>(simd, of(&state[k]), of(&state[w]), block, of, &mut sums);
+                let found =
+                    smooth.contacts::<S, UNEVEN_OR_OILED>(simd, of(&state[k]), of(&state[w]), block, of, &mut sums);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -218,7 +227,7 @@ impl<S: Wide> Found<S> {
 impl<E: Elastic> Smooth<'_, E> {
     /// Of elements at the paths `u` (m) and absolute radial velocities `w` (m/s).
     #[inline(always)]
-    fn contacts<S: Wide, const SPECIAL: bool>(
+    fn contacts<S: Wide, const UNEVEN_OR_OILED: bool>(
         &self,
         simd: S,
         u: Lanes<S>,
@@ -234,26 +243,26 @@ impl<E: Elastic> Smooth<'_, E> {
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
         let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
 
-        let (p, t) = (dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r));
         let number = |number: f64| Lanes::splat(simd, number);
-        let Distance { longer, n: [n_r, n_t] } = Distance::of(simd, rho + p, t, self.series);
-        let delta = number(-self.clearance) - u - p - longer;
+        let offset = [dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r)];
+        let gap = InnerGap::of(rho, u, offset, number(self.clearance), self.series);
+        let (delta, [n_r, n_t]) = (gap.approach, gap.n);
         let pace = number(now.cage.speed);
-        let speed = if SPECIAL { of(&block.pace) * pace } else { pace };
+        let speed = if UNEVEN_OR_OILED { of(&block.pace) * pace } else { pace };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
-        let opening = n_r * (dot(simd, self.drift, e_r) + path_rate) + n_t * along;
+        let closing = gap.closing([dot(simd, self.drift, e_r) + path_rate, along]);
 
         let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
-        let mut inner = law.force(of(&block.inner), delta, -opening);
+        let mut inner = law.force(of(&block.inner), delta, closing);
         let mut outer = law.force(of(&block.outer), u, path_rate);
-        if SPECIAL && let Some([inside, outside]) = &self.films {
+        if UNEVEN_OR_OILED && let Some([inside, outside]) = &self.films {
             // Constants of contacts are far above 1, or 0 for what is no smooth contact.
             let [on_inner, on_outer] = [&block.inner, &block.outer].map(|constant| of(constant).at_most(number(1.0)));
-            inner = inner + on_inner * inside.force(number, delta, -opening);
-            outer = outer + on_outer * outside.force(number, u, path_rate);
+            inner = inner + on_inner * inside.to(number).force(delta, closing);
+            outer = outer + on_outer * outside.to(number).force(u, path_rate);
         }
         let mut turning = rho * (speed * speed);
-        if SPECIAL {
+        if UNEVEN_OR_OILED {
             turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
         }
         let acceleration = (inner * n_r - outer) * of(&block.per_mass)
@@ -274,13 +283,13 @@ impl<E: Elastic> Smooth<'_, E> {
             normal: [n_r, n_t],
             outer,
             approach: delta * present,
-            pushing: [law.pushing(delta, -opening) * present, law.pushing(u, path_rate) * present],
+            pushing: [law.pushing(delta, closing) * present, law.pushing(u, path_rate) * present],
         }
     }
 }
 
 /// The smooth contacts of rollers.
-struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
+struct Rollers<'a, const RECORD: bool, const UNEVEN_OR_OILED: bool> {
     model: &'a Model,
     line: Line<'a>,
     now: &'a Kinematics,
@@ -291,12 +300,19 @@ struct Rollers<'a, const RECORD: bool, const SPECIAL: bool> {
     contacts: &'a mut Record,
 }
 
-impl<const RECORD: bool, const SPECIAL: bool> Kernel for Rollers<'_, RECORD, SPECIAL> {
+impl<const RECORD: bool, const UNEVEN_OR_OILED: bool> Kernel for Rollers<'_, RECORD, UNEVEN_OR_OILED> {
     type Output = [f64; 4];
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
         let Self { model, line, now, stage, derivative, elements, films, contacts } = self;
-        model.contacts_of::<S, Line, RECORD, SPECIAL>(simd, line, now, stage, derivative, (elements, films, contacts))
+        model.contacts_of::<S, Line, RECORD, UNEVEN_OR_OILED>(
+            simd,
+            line,
+            now,
+            stage,
+            derivative,
+            (elements, films, contacts),
+        )
     }
 }

@@ -16,11 +16,11 @@ pub struct Forces {
     /// The elements, with what follows from the raceway that each is on.
     pub(in crate::dynamics) elements: Vec<ElementBlock>,
     /// Outer contacts that are not those of the smooth rigid raceway.
-    pub(in crate::dynamics) other_outer: Vec<Other>,
+    pub(in crate::dynamics) non_smooth_outer: Vec<NonSmooth>,
     /// Inner contacts near defects.
-    pub(in crate::dynamics) other_inner: Vec<Other>,
+    pub(in crate::dynamics) non_smooth_inner: Vec<NonSmooth>,
     /// What was found of the inner ones and of the outer ones.
-    pub(super) other_contacts: [Vec<OtherContact>; 2],
+    pub(super) non_smooth_contacts: [Vec<NonSmoothContact>; 2],
     /// Elements whose balance is looked for one by one: those of which a contact is in one of these lists.
     pub(in crate::dynamics) searched: Vec<Searched>,
     /// Number of elements.
@@ -60,9 +60,9 @@ impl Clone for Forces {
             contacts: self.contacts.clone(),
             elements: self.elements.clone(),
             unsolved: self.unsolved.clone(),
-            other_outer: with_its_room(&self.other_outer),
-            other_inner: with_its_room(&self.other_inner),
-            other_contacts: [0, 1].map(|side: usize| with_its_room(&self.other_contacts[side])),
+            non_smooth_outer: with_its_room(&self.non_smooth_outer),
+            non_smooth_inner: with_its_room(&self.non_smooth_inner),
+            non_smooth_contacts: [0, 1].map(|side: usize| with_its_room(&self.non_smooth_contacts[side])),
             searched: with_its_room(&self.searched),
             ..*self
         }
@@ -80,7 +80,7 @@ impl Forces {
     pub fn of(model: &Model) -> Self {
         let mut forces = Self::new(model.element_count);
         if !model.may_have_inner_defects {
-            (forces.other_inner, forces.other_contacts[0]) = (Vec::new(), Vec::new());
+            (forces.non_smooth_inner, forces.non_smooth_contacts[0]) = (Vec::new(), Vec::new());
         }
         if model.elements_in_balance() {
             forces.searched = Vec::with_capacity(model.element_count);
@@ -96,9 +96,9 @@ impl Forces {
             count,
             contacts: Record::new(slots),
             elements: vec![ElementBlock::default(); slots / WIDEST],
-            other_outer: Vec::with_capacity(count),
-            other_inner: Vec::with_capacity(count),
-            other_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
+            non_smooth_outer: Vec::with_capacity(count),
+            non_smooth_inner: Vec::with_capacity(count),
+            non_smooth_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
             ..Self::default()
         }
     }
@@ -106,9 +106,9 @@ impl Forces {
     /// Sorts the elements by the surfaces they are on. What follows inside kernels is for these cells.
     pub(in crate::dynamics) fn enter(&mut self, model: &Model, cells: &Cells) {
         let rigid = model.outer.contact.compliance == 0.0;
-        self.other_outer.clear();
-        self.other_inner.clear();
-        for contacts in &mut self.other_contacts {
+        self.non_smooth_outer.clear();
+        self.non_smooth_inner.clear();
+        for contacts in &mut self.non_smooth_contacts {
             contacts.clear();
         }
         self.torques = [0.0; 3];
@@ -122,11 +122,11 @@ impl Forces {
             let block = &mut self.elements[j / WIDEST];
             if inner != [SMOOTH; 2] {
                 block.inner[j % WIDEST] = 0.0;
-                self.other_inner.push(Other { element: j, cells: inner });
+                self.non_smooth_inner.push(NonSmooth { element: j, cells: inner });
             }
             if !rigid || outer != [SMOOTH; 2] {
                 block.outer[j % WIDEST] = 0.0;
-                self.other_outer.push(Other { element: j, cells: outer });
+                self.non_smooth_outer.push(NonSmooth { element: j, cells: outer });
             }
             if model.elements_in_balance() && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2]) {
                 let block = &mut self.elements[j / WIDEST];
@@ -155,10 +155,10 @@ impl Forces {
         }
     }
 
-    /// Puts what [`other_contacts`](super::other_contacts) found among the contacts that are kept.
-    pub(in crate::dynamics) fn record_others(&mut self) {
+    /// Puts what [`non_smooth_contacts`](super::non_smooth_contacts) found among the contacts that are kept.
+    pub(in crate::dynamics) fn record_non_smooth(&mut self) {
         let record = &mut self.contacts;
-        let [inner, outer] = &self.other_contacts;
+        let [inner, outer] = &self.non_smooth_contacts;
         for other in inner {
             let j = other.element;
             record.inner_approach[j] = other.approach;
@@ -236,7 +236,7 @@ impl Forces {
 
 /// A contact that is not one of smooth rigid raceways, and where it is.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Other {
+pub(in crate::dynamics) struct NonSmooth {
     pub(in crate::dynamics) element: usize,
     /// Cells of the raceway and of the element's own defect.
     pub(in crate::dynamics) cells: [u32; 2],
@@ -252,17 +252,13 @@ pub(in crate::dynamics) struct Searched {
 
 /// A contact that is not one of smooth rigid raceways.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct OtherContact {
+pub(super) struct NonSmoothContact {
     pub(in crate::dynamics) element: usize,
     pub(in crate::dynamics) approach: f64,
     pub(super) pushing: f64,
     /// Magnitude (N); then the parts on the element: of an inner contact outwards and counter-clockwise, as seen from
     /// the outer ring's centre, of an outer contact inwards and counter-clockwise.
     pub(in crate::dynamics) force: [f64; 3],
-    /// Torque (N m) on the body that bears the defect, about its own centre.
-    pub(in crate::dynamics) torque: f64,
-    /// The frame of that body.
-    pub(in crate::dynamics) frame: Frame,
 }
 
 /// How far the contact that has changed most is beyond its change.

@@ -1,168 +1,137 @@
 //! One element's contacts to first order: the one source of their derivatives.
 //!
 //! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
-//! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that
-//! moves, the tangent stiffness,
-//! and the derivatives of [outputs](crate::dynamics::derivatives::variation).
+//! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that moves, and the tangent stiffness.
 //!
-//! With f the inner contact's force on the element,
-//! ```text
-//! f = Q(δ, δ̇) n,   q = x_o + ρ e_r − x_i,   q̇ = v_o + u' e_r + ρ ω e_t − v_i,   δ̇ = −n·q̇
-//! G = ∂f/∂q = −n (Q_δ nᵀ + Q_δ̇ q̇ᵀP/|q|) + Q P/|q|,   P = 1 − n nᵀ
-//! D = ∂f/∂q̇ = −Q_δ̇ n nᵀ
-//! ```
-//! and, d standing for a small change of all that an element sees,
+//! The forces are those of the [kernel](super::kernel) over dual numbers: of the inner contact by q, q̇, frame and
+//! film, of the outer by u, u′, angle, speed and film. What an element sees leads to these by a linear chain,
 //! ```text
 //! dq  = dx_o − dx_i + e_r du + ρ e_t dθ
 //! dq̇  = dv_o − dv_i + e_r du' + (u' e_t − ρ ω e_r) dθ + e_t (ω du + ρ dω)
-//! df  = G dq + D dq̇
-//! dF  = (Q_Δ dΔ + Q_Δ̇ dΔ̇) (radial, tangential) + Q d(radial, tangential)
-//! dΔ  = Δ_u du + Δ_ψ dθ              dΔ̇ = Δ_u du' + Δ_ψ dω + (Δ_uu u' + Δ_uψ ω) du + (Δ_uψ u' + Δ_ψψ ω) dθ
 //! ```
-//! F is the outer contact's force, inwards and counter-clockwise, at the equivalent approach Δ(u, ψ). Near a defect of
-//! the inner raceway, or of the element on its inner side, with v_n = n·q̇, v_t = t·q̇ and the frame's speed ω_f,
-//! ```text
-//! f = Q(Δ, Δ̇) (R n + T t),   Δ(δ, ψ),   dδ = −n·dq,   dψ = t·dq/|q| − dα,   dn = t (t·dq)/|q|,   dt = −n (t·dq)/|q|
-//! dδ̇ = −n·dq̇ − v_t (t·dq)/|q|,   dψ̇ = t·dq̇/|q| − v_t (n·dq)/|q|² − v_n (t·dq)/|q|² − dω_f
-//! ```
-//! Where Δ is not u itself, its second derivatives and derivatives of the direction by the angle are central
-//! differences over [`DIFFERENCE`], wrong by less than 1e-6 of themselves.
+//! d standing for a small change. The element's numbers may be dual numbers themselves; the derivatives then have
+//! theirs.
 //!
-//! Oil films add what resists to Q. Derivatives are those of the branch that each contact is in; at the onset of a
-//! contact there are two, and where a film's gap ceases to close. At rest all of it is elastic: G is symmetric, and no
-//! damping enters.
+//! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two, and where a
+//! film's gap ceases to close. At rest all of it is elastic: G = ∂f/∂q is symmetric, and no damping enters.
 
-use super::element_contacts::DIFFERENCE;
-use super::element_variation::ElementVariation;
-use crate::contact::law::{CompliantContact, ForceLaw};
-use crate::contact::near_defect::Approach;
-use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{InnerGap, Meeting};
-use crate::dynamics::parameters::{FilmsNow, Resistance, resistance};
-use crate::dynamics::parameters::{Frame, FramedKinematics, Model, Near, PathMotion, SMOOTH};
-use crate::numerics::plane::{Matrix, Vector, turned};
+use super::element_forces::{InnerPlace, OnElement, OuterPlace};
+use super::element_motion::{ElementMotion, ElementVariation};
+use crate::contact::law::CompliantContact;
+use crate::dynamics::parameters::{Frame, FramedKinematics, Frames, Model, PathMotion, SMOOTH, Turn};
+use crate::numerics::number::Dual;
+use crate::numerics::number::Scalar;
+use crate::numerics::plane::{Matrix, Vector};
 
-/// Whether second derivatives of the outer approach are wanted, which the change of path or position needs while
-/// something moves; each costs four more samples at the defect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::dynamics) enum Bends {
-    /// They are.
-    Wanted,
-    /// They count for nothing, or an approximate derivative will do.
-    LeftOut,
-}
+/// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle and speed of the frame, film speed.
+const INNER: usize = 7;
+/// Of the outer contact's: u, u', angle and speed against the frame, film speed.
+const OUTER: usize = 5;
 
-/// One element's contacts to first order. Vectors are in x and y unless they say otherwise.
+/// One element's contacts to first order. Forces are in parts along e_r and e_t, of the outer contact inwards.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Linearized {
-    pub(in crate::dynamics) e_r: Vector,
-    pub(in crate::dynamics) e_t: Vector,
-    pub(in crate::dynamics) rho: f64,
-    pub(in crate::dynamics) omega: f64,
-    pub(in crate::dynamics) path_rate: f64,
-    /// Force of the inner contact on the element (N), and its derivatives G, D.
-    pub(in crate::dynamics) inner: Vector,
-    pub(in crate::dynamics) by_q: Matrix,
-    pub(in crate::dynamics) by_q_rate: Matrix,
-    /// Its derivatives by angle and speed of the body that bears the defect.
-    by_inner_frame: [Vector; 2],
-    /// Derivatives of the inner force, and of the outer per unit of direction, by the speed that oil films follow.
-    by_film_speed: (Vector, f64),
-    /// The frames of the bodies that bear the defects under the inner and the outer contact.
-    pub(in crate::dynamics) frames: [Frame; 2],
-    /// Direction and length of q (m).
-    pub(in crate::dynamics) n: Vector,
-    pub(in crate::dynamics) distance: f64,
-    /// Force of the outer contact on the element, inwards and counter-clockwise (N).
-    pub(in crate::dynamics) outer: Vector,
-    /// Direction of the outer force, inwards and counter-clockwise, and its derivatives by path and angle.
-    direction: Vector,
-    direction_by_path: Vector,
-    direction_by_angle: Vector,
-    /// Outer force per unit of direction, and its derivatives by u, u', cage angle and cage speed.
-    amount: f64,
-    /// Equivalent approach of the inner and of the outer contact (m).
-    pub(in crate::dynamics) approaches: [f64; 2],
-    by_path: f64,
-    by_path_rate: f64,
-    by_angle: f64,
-    by_speed: f64,
+pub(in crate::dynamics) struct Linearized<T: Scalar = f64> {
+    /// The element, at this motion.
+    pub(in crate::dynamics) at: ElementMotion<T>,
+    /// Distance from the outer ring's centre (m).
+    pub(in crate::dynamics) rho: T,
+    /// The inner contact.
+    pub(in crate::dynamics) inner: FirstOrder<T, INNER>,
+    /// The outer contact.
+    pub(in crate::dynamics) outer: FirstOrder<T, OUTER>,
+    /// Direction, along e_r and e_t, and length of q (m).
+    pub(in crate::dynamics) n: [T; 2],
+    pub(in crate::dynamics) distance: T,
 }
 
-/// Change of one element's contact forces, in the directions of [`Linearized::inner`] and [`Linearized::outer`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(in crate::dynamics) struct ElementChange {
-    pub(in crate::dynamics) inner: Vector,
-    pub(in crate::dynamics) outer: Vector,
+/// A contact's force on the element and its derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
+    /// Force (N).
+    pub(in crate::dynamics) force: Vector<T>,
+    by: [Vector<T>; K],
+    /// Equivalent approach (m).
+    pub(in crate::dynamics) approach: T,
+    /// The frame of the body that bears the defect.
+    pub(in crate::dynamics) frame: Frame,
 }
 
-/// Second derivatives of an approach, and of its direction by the angle.
-#[derive(Debug, Clone, Copy, Default)]
-struct Bend {
-    path_path: f64,
-    path_angle: f64,
-    angle_angle: f64,
-    direction_by_angle: Vector,
+/// Change of one element's contact forces, in its directions as they were.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct ElementChange<T: Scalar = f64> {
+    pub(in crate::dynamics) inner: Vector<T>,
+    pub(in crate::dynamics) outer: Vector<T>,
 }
 
-impl ElementChange {
-    /// Change of the force on the outer ring while the element's directions stay.
-    pub(in crate::dynamics) fn on_housing(&self, element: &Linearized) -> Vector {
-        element.e_r * self.outer.x - element.e_t * self.outer.y
+impl<T: Scalar, const K: usize> FirstOrder<T, K> {
+    /// Of what the kernel finds, some directions left out.
+    fn of<const N: usize>(OnElement { force, approach, frame }: OnElement<Dual<T, N>>) -> Self {
+        let mut by = [Vector::zeros(); K];
+        for (k, by) in by.iter_mut().enumerate().take(N) {
+            *by = Vector::new(force[0].by[k], force[1].by[k]);
+        }
+        Self { force: Vector::new(force[0].value, force[1].value), by, approach: approach.value, frame }
     }
 
+    fn change(&self, directions: [T; K]) -> Vector<T> {
+        self.by.iter().zip(directions).fold(Vector::zeros(), |sum, (by, direction)| sum + by * direction)
+    }
+}
+
+impl<T: Scalar> ElementChange<T> {
     /// Change of the radial force of both contacts on the element (N).
     #[inline]
-    pub(in crate::dynamics) fn radial(&self, element: &Linearized) -> f64 {
-        self.inner.dot(&element.e_r) - self.outer.x
+    pub(in crate::dynamics) fn radial(&self) -> T {
+        self.inner.x - self.outer.x
+    }
+}
+
+impl<T: Scalar> Linearized<T> {
+    /// The forces' change.
+    #[inline]
+    pub(in crate::dynamics) fn change(&self, by: &ElementVariation<T>) -> ElementChange<T> {
+        let ElementMotion { e_r, e_t, omega, path_rate, .. } = self.at;
+        let rho = self.rho;
+        let q = [by.offset.dot(&e_r) + by.path, by.offset.dot(&e_t) + rho * by.angle];
+        let q_rate = [
+            by.drift.dot(&e_r) + (by.path_rate - rho * omega * by.angle),
+            by.drift.dot(&e_t) + (path_rate * by.angle + omega * by.path + rho * by.speed),
+        ];
+        let [angle, speed] = by.frames[self.inner.frame as usize];
+        let inner = self.inner.change([q[0], q[1], q_rate[0], q_rate[1], angle, speed, by.film_speed]);
+        let [angle, speed] = by.frames[self.outer.frame as usize];
+        let outer = [by.path, by.path_rate, by.angle - angle, by.speed - speed, by.film_speed];
+        ElementChange { inner, outer: self.outer.change(outer) }
+    }
+}
+
+impl<T: Scalar, const K: usize> FirstOrder<T, K> {
+    fn values(&self) -> FirstOrder<f64, K> {
+        let by = self.by.map(|by| by.map(T::value));
+        FirstOrder { force: self.force.map(T::value), by, approach: self.approach.value(), frame: self.frame }
+    }
+}
+
+impl<T: Scalar> Linearized<T> {
+    /// The numbers without their derivatives.
+    pub(in crate::dynamics) fn values(&self) -> Linearized {
+        Linearized {
+            at: self.at.values(),
+            rho: self.rho.value(),
+            inner: self.inner.values(),
+            outer: self.outer.values(),
+            n: self.n.map(T::value),
+            distance: self.distance.value(),
+        }
     }
 }
 
 impl Linearized {
-    /// The forces' change.
-    #[inline]
-    pub(in crate::dynamics) fn change(&self, by: &ElementVariation) -> ElementChange {
-        let Self { e_r, e_t, rho, omega, .. } = *self;
-        let turned = rho * by.cage_angle;
-        let radial = by.path_rate - rho * omega * by.cage_angle;
-        let around = self.path_rate * by.cage_angle + omega * by.path + rho * by.cage_speed;
-        let q = by.offset + e_r * by.path + e_t * turned;
-        let q_rate = by.drift + e_r * radial + e_t * around;
-        let (amount, turn) = self.outer_change(by);
-        let [angle, speed] = by.frames[self.frames[0] as usize];
-        ElementChange {
-            inner: self.by_q * q
-                + self.by_q_rate * q_rate
-                + (self.by_inner_frame[0] * angle + self.by_inner_frame[1] * speed)
-                + self.by_film_speed.0 * by.film_speed,
-            outer: self.direction * amount + turn * self.amount,
-        }
-    }
-
-    /// Force on the outer ring (N).
-    pub(in crate::dynamics) fn on_housing(&self) -> Vector {
-        self.e_r * self.outer.x - self.e_t * self.outer.y
-    }
-
-    /// The change of the outer force's magnitude (N).
-    pub(in crate::dynamics) fn outer_amount(&self, by: &ElementVariation) -> f64 {
-        let (amount, turn) = self.outer_change(by);
-        let length = self.direction.norm().max(f64::MIN_POSITIVE);
-        amount * length + self.amount * self.direction.dot(&turn) / length
-    }
-
-    /// Change of the outer force per unit of direction, and of the direction.
-    #[inline]
-    fn outer_change(&self, by: &ElementVariation) -> (f64, Vector) {
-        let [angle, speed] = by.frames[self.frames[1] as usize];
-        let (angle, speed) = (by.cage_angle - angle, by.cage_speed - speed);
-        let amount = self.by_path * by.path
-            + self.by_path_rate * by.path_rate
-            + self.by_angle * angle
-            + self.by_speed * speed
-            + self.by_film_speed.1 * by.film_speed;
-        let turn = self.direction_by_path * by.path + self.direction_by_angle * angle;
-        (amount, turn)
+    /// G = ∂f/∂q and D = ∂f/∂q̇ of the inner contact's force, in x and y.
+    pub(in crate::dynamics) fn by_q(&self) -> [Matrix; 2] {
+        let directions = Matrix::from_columns(&[self.at.e_r, self.at.e_t]);
+        let by = &self.inner.by;
+        [0, 2].map(|k| directions * Matrix::from_columns(&[by[k], by[k + 1]]) * directions.transpose())
     }
 }
 
@@ -172,210 +141,96 @@ impl Model {
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
-        u: f64,
-        w: f64,
+        [u, w]: [f64; 2],
         now: &FramedKinematics,
-        bends: Bends,
     ) -> Linearized {
         let rate = w - now.housing.velocity.dot(&self.direction(j, &now.cage));
-        self.linearized_at(j, cells, PathMotion { path: u, rate }, now, bends)
+        self.linearized_at(cells, &self.element_motion(j, PathMotion { path: u, rate }, now))
     }
 
-    /// The same at this motion along its path.
-    pub(in crate::dynamics) fn linearized_at(
+    /// The same at this motion.
+    pub(in crate::dynamics) fn linearized_at<T: Scalar>(
         &self,
-        j: usize,
         cells: [[u32; 2]; 2],
-        along: PathMotion,
-        now: &FramedKinematics,
-        bends: Bends,
-    ) -> Linearized {
-        self.linearized_with([&self.inner.contact, &self.outer.contact], j, cells, along, now, bends)
+        at: &ElementMotion<T>,
+    ) -> Linearized<T> {
+        self.linearized_with([&self.inner.contact, &self.outer.contact], cells, at)
     }
 
     /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
-    pub(in crate::dynamics) fn linearized_with(
+    pub(in crate::dynamics) fn linearized_with<T: Scalar>(
         &self,
         contacts: [&CompliantContact; 2],
-        j: usize,
         cells: [[u32; 2]; 2],
-        PathMotion { path: u, rate: path_rate }: PathMotion,
-        now: &FramedKinematics,
-        bends: Bends,
-    ) -> Linearized {
-        let e_r = self.direction(j, &now.cage);
-        let e_t = turned(e_r);
-        let [omega, _] = self.element_speed(j, &now.cage);
-        let rho = self.outer_centre_radius + u;
-
-        let gap = self.inner_gap(u, now.offset(), e_r, self.clearance(now.films.as_ref()));
-        let n = e_r * gap.n.x + e_t * gap.n.y;
-        let q_rate = now.drift() + e_r * path_rate + e_t * (rho * omega);
-        let inner = match cells[0] {
-            [SMOOTH, SMOOTH] => self.smooth_inner(&contacts[0].law, &gap, n, q_rate, now.films.as_ref()),
-            cells => self.near_inner(
-                &contacts[0].law,
-                &self.inner_meeting(j, cells, &gap, self.element_angle(j, &now.cage)),
-                n,
-                q_rate,
-                now,
-                bends,
-            ),
+        at: &ElementMotion<T>,
+    ) -> Linearized<T> {
+        // Dry contacts on smooth raceways ask for the first directions only.
+        let [inner, outer] = cells.map(|cells| cells == [SMOOTH; 2] && at.films.is_none());
+        let (inner, n, distance) = if inner {
+            self.inner_to_first_order::<T, 4>(contacts[0], cells[0], at)
+        } else {
+            self.inner_to_first_order::<T, INNER>(contacts[0], cells[0], at)
         };
-
-        let at = self.outer_meeting(j, cells[1], u, &now.cage);
-        let bent = bends == Bends::Wanted && cells[1] != [SMOOTH; 2];
-        let bend = if bent { self.bend(RacewaySide::Outer, &at, now) } else { Bend::default() };
-        let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Outer, &at, &now.frames);
-        let turning = omega - frame_speed;
-        let rate = near.by_path * path_rate + near.by_angle * turning;
-        let Resistance { force: film, by_speed: film_by_speed } =
-            resistance(now.films.as_ref(), RacewaySide::Outer, near.value, rate);
-        let law = contacts[1].with_derivatives(near.value, rate).plus(film);
-        let direction = Vector::new(near.radial, near.tangential);
-        Linearized {
-            e_r,
-            e_t,
-            rho,
-            omega,
-            path_rate,
-            inner: inner.force,
-            by_q: inner.by_q,
-            by_q_rate: inner.by_q_rate,
-            by_inner_frame: inner.by_frame,
-            by_film_speed: (inner.by_film_speed, film_by_speed),
-            frames: [inner.frame, frame],
-            n,
-            distance: gap.distance,
-            outer: direction * law.value,
-            direction,
-            direction_by_path: Vector::new(near.radial_by_path, near.tangential_by_path),
-            direction_by_angle: bend.direction_by_angle,
-            amount: law.value,
-            approaches: [inner.approach, near.value],
-            by_path: law.by_approach * near.by_path
-                + law.by_rate * (bend.path_path * path_rate + bend.path_angle * turning),
-            by_path_rate: law.by_rate * near.by_path,
-            by_angle: law.by_approach * near.by_angle
-                + law.by_rate * (bend.path_angle * path_rate + bend.angle_angle * turning),
-            by_speed: law.by_rate * near.by_angle,
-        }
-    }
-
-    /// The inner contact of an element on the smooth raceway, q changing at `q_rate`.
-    fn smooth_inner(
-        &self,
-        law: &ForceLaw,
-        gap: &InnerGap,
-        n: Vector,
-        q_rate: Vector,
-        films: Option<&FilmsNow>,
-    ) -> InnerContact {
-        let rate = -n.dot(&q_rate);
-        let film = resistance(films, RacewaySide::Inner, gap.approach, rate);
-        let force = law.with_derivatives(gap.approach, rate).plus(film.force);
-        let thicker = films.map_or(0.0, FilmsNow::together_by_speed);
-        // P q̇/|q| and Q/|q|
-        let turn = (q_rate + n * rate) / gap.distance;
-        let across = force.value / gap.distance;
-        InnerContact {
-            approach: gap.approach,
-            force: n * force.value,
-            by_q: Matrix::from_diagonal_element(across)
-                - n * (n * (force.by_approach + across) + turn * force.by_rate).transpose(),
-            by_q_rate: n * n.transpose() * -force.by_rate,
-            by_frame: [Vector::zeros(); 2],
-            by_film_speed: n * (force.by_approach * thicker + film.by_speed),
-            frame: Frame::Shaft,
-        }
-    }
-
-    /// The inner contact of an element near a defect, q in direction `n` changing at `q_rate`.
-    fn near_inner(
-        &self,
-        law: &ForceLaw,
-        at: &Meeting,
-        n: Vector,
-        q_rate: Vector,
-        now: &FramedKinematics,
-        bends: Bends,
-    ) -> InnerContact {
-        let (t, distance) = (turned(n), at.distance);
-        let (v_n, v_t) = (n.dot(&q_rate), t.dot(&q_rate));
-        let bend = if bends == Bends::Wanted { self.bend(RacewaySide::Inner, at, now) } else { Bend::default() };
-        let Near { approach: near, frame_speed, frame } = self.approach(RacewaySide::Inner, at, &now.frames);
-        let turning = v_t / distance - frame_speed;
-        let rate = -near.by_path * v_n + near.by_angle * turning;
-        let film = resistance(now.films.as_ref(), RacewaySide::Inner, near.value, rate);
-        let law = law.with_derivatives(near.value, rate).plus(film.force);
-        // Films take from the gap while the element stays where it is.
-        let thicker = now.films.as_ref().map_or(0.0, FilmsNow::together_by_speed);
-        let turns = if thicker == 0.0 { Vector::zeros() } else { self.direction_by_gap(at, &now.frames) };
-        // Δ̇ by the approach and by the angle at constant rates of both.
-        let rate_by_approach = -bend.path_path * v_n + bend.path_angle * turning;
-        let rate_by_angle = -bend.path_angle * v_n + bend.angle_angle * turning;
-        let per_length = 1.0 / distance;
-        // dΔ, dΔ̇ and the force's amount as rows by dq.
-        let value = n * -near.by_path + t * (near.by_angle * per_length);
-        let rate = n * (-rate_by_approach - near.by_angle * v_t * per_length * per_length)
-            + t * (per_length * (rate_by_angle - near.by_path * v_t - near.by_angle * v_n * per_length));
-        let amount = value * law.by_approach + rate * law.by_rate;
-        let direction = n * near.radial + t * near.tangential;
-        // What turns the direction: the approach, the angle, and n and t themselves.
-        let by_approach = n * near.radial_by_path + t * near.tangential_by_path;
-        let by_angle = n * bend.direction_by_angle.x + t * bend.direction_by_angle.y;
-        let turned = by_angle + t * near.radial - n * near.tangential;
-        let by_q = direction * amount.transpose() - by_approach * n.transpose() * law.value
-            + turned * t.transpose() * (law.value * per_length);
-        let along = n * -near.by_path + t * (near.by_angle * per_length);
-        let by_turn = law.by_approach * near.by_angle + law.by_rate * rate_by_angle;
-        InnerContact {
-            approach: near.value,
-            force: direction * law.value,
-            by_q,
-            by_q_rate: direction * along.transpose() * law.by_rate,
-            by_film_speed: direction
-                * ((law.by_approach * near.by_path + law.by_rate * rate_by_approach) * thicker + film.by_speed)
-                + (n * turns.x + t * turns.y) * (law.value * thicker),
-            by_frame: [-(direction * by_turn + by_angle * law.value), -direction * (law.by_rate * near.by_angle)],
-            frame,
-        }
-    }
-
-    /// Second derivatives of the approach of a contact near a defect.
-    fn bend(&self, side: RacewaySide, at: &Meeting, now: &FramedKinematics) -> Bend {
-        let angle = DIFFERENCE / self.outer_centre_radius;
-        let sample = |du: f64, turn: f64| {
-            let u = at.u + du;
-            let (direction, distance) = match side {
-                RacewaySide::Inner => (at.direction + turn, at.distance - du),
-                RacewaySide::Outer => {
-                    let lead = self.lead(at.element, &now.cage).angle;
-                    ((now.cage.angle + turn) + self.element_offset(at.element) + lead, self.outer_centre_radius + u)
-                }
-            };
-            self.approach(side, &Meeting { u, distance, direction, ..*at }, &now.frames).approach
+        let outer = if outer {
+            self.outer_to_first_order::<T, 2>(contacts[1], cells[1], at)
+        } else {
+            self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at)
         };
-        let (inside, outside) = (sample(-DIFFERENCE, 0.0), sample(DIFFERENCE, 0.0));
-        let (behind, ahead) = (sample(0.0, -angle), sample(0.0, angle));
-        let by_path = |of: fn(&Approach) -> f64| (of(&outside) - of(&inside)) / (2.0 * DIFFERENCE);
-        let by_angle = |of: fn(&Approach) -> f64| (of(&ahead) - of(&behind)) / (2.0 * angle);
-        Bend {
-            path_path: by_path(|near| near.by_path),
-            path_angle: by_path(|near| near.by_angle),
-            angle_angle: by_angle(|near| near.by_angle),
-            direction_by_angle: Vector::new(by_angle(|near| near.radial), by_angle(|near| near.tangential)),
-        }
+        Linearized { at: *at, rho: at.path + T::from(self.outer_centre_radius), inner, outer, n, distance }
+    }
+
+    fn inner_to_first_order<T: Scalar, const K: usize>(
+        &self,
+        contact: &CompliantContact,
+        cells: [u32; 2],
+        at: &ElementMotion<T>,
+    ) -> (FirstOrder<T, INNER>, [T; 2], T) {
+        let InnerPlace { element, rho, u, offset, q_rate, angle, frames, .. } = self.inner_place(cells, at);
+        let (found, gap) = self.inner_contact::<Dual<T, K>>(
+            contact,
+            &InnerPlace {
+                element,
+                cells,
+                rho: Dual::constant(rho),
+                u: Dual::constant(u),
+                offset: [seed(offset[0], 0), seed(offset[1], 1)],
+                q_rate: [seed(q_rate[0], 2), seed(q_rate[1], 3)],
+                angle: Dual::constant(angle),
+                frames: Frames(frames.0.map(|turn| Turn { angle: seed(turn.angle, 4), speed: seed(turn.speed, 5) })),
+                films: at.films.map(|films| films.following(seed(at.film_speed, 6))),
+                curved: at.curved,
+            },
+        );
+        (FirstOrder::of(found), gap.n.map(|n| n.value), gap.distance.value)
+    }
+
+    fn outer_to_first_order<T: Scalar, const K: usize>(
+        &self,
+        contact: &CompliantContact,
+        cells: [u32; 2],
+        at: &ElementMotion<T>,
+    ) -> FirstOrder<T, OUTER> {
+        let OuterPlace { element, u, path_rate, angle, omega, frames, .. } = self.outer_place(cells, at);
+        let constant = Dual::<T, K>::constant;
+        FirstOrder::of(self.outer_contact(
+            contact,
+            &OuterPlace {
+                element,
+                cells,
+                u: seed(u, 0),
+                path_rate: seed(path_rate, 1),
+                angle: seed(angle, 2),
+                omega: seed(omega, 3),
+                frames: Frames(frames.0.map(|turn| Turn { angle: constant(turn.angle), speed: constant(turn.speed) })),
+                films: at.films.map(|films| films.following(seed(at.film_speed, 4))),
+                curved: at.curved,
+            },
+        ))
     }
 }
 
-/// The inner contact of an element to first order.
-struct InnerContact {
-    approach: f64,
-    force: Vector,
-    by_q: Matrix,
-    pub(in crate::dynamics) by_q_rate: Matrix,
-    by_frame: [Vector; 2],
-    by_film_speed: Vector,
-    frame: Frame,
+/// The variable of direction `k`, or a constant where that is left out.
+#[inline(always)]
+fn seed<T: Scalar, const K: usize>(value: T, k: usize) -> Dual<T, K> {
+    if k < K { Dual::variable(value, k) } else { Dual::constant(value) }
 }

@@ -1,19 +1,22 @@
 //! The contacts of the elements with both raceways, and the forces in them.
 
 pub mod contact_lanes;
-mod element_contacts;
-mod element_variation;
+mod directions;
+mod element_forces;
+mod element_motion;
 mod forces;
-mod gap_lanes;
+mod kernel;
 mod linearized;
-mod other_contacts;
+mod meetings;
+mod non_smooth_contacts;
 
 pub use contact_lanes::Record;
 pub use forces::{Forces, UnsolvedContact};
 
 pub(in crate::dynamics) use contact_lanes::Sums;
-pub(in crate::dynamics) use element_contacts::{DIFFERENCE, InnerGap, Meeting};
-pub(in crate::dynamics) use element_variation::ElementVariation;
-pub(in crate::dynamics) use gap_lanes::{Distance, dot, radial};
-pub(in crate::dynamics) use linearized::{Bends, ElementChange, Linearized};
-pub(in crate::dynamics) use other_contacts::OtherOuter;
+pub(in crate::dynamics) use directions::{dot, radial};
+pub(in crate::dynamics) use element_forces::{BodyTorque, ElementForces};
+pub(in crate::dynamics) use element_motion::{ElementMotion, ElementVariation};
+pub(in crate::dynamics) use kernel::{InnerGap, Meeting};
+pub(in crate::dynamics) use linearized::{ElementChange, FirstOrder, Linearized};
+pub(in crate::dynamics) use non_smooth_contacts::NonSmoothOuter;

@@ -9,13 +9,14 @@
 //! The outer contact's force depends on u and u' alone, and on time through the cage angle.
 //!
 //! By time, at constant state: ė_r = ω e_t, ė_t = −ω e_r, ω' the cage's acceleration, and prescribed rings and loads as
-//! the drive says.
+//! the excitation says.
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
-use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
-    BODIES, Bodies, BodyMatrix, Cells, Drive, FramedKinematics, Kinematics, Layout, Model, RingState, prescribed_rate,
+    BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, PathMotion, RingState,
+    prescribed_rate,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::Vector;
@@ -205,7 +206,7 @@ impl Model {
     /// The Jacobian at `tau`, and the derivative of the right-hand side by time at constant state.
     pub fn linearize(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         tau: f64,
         cells: &Cells,
         state: &[f64],
@@ -217,19 +218,18 @@ impl Model {
             if motion == Motion::Host { prescribed_rate(prescribed, tau) } else { RingState::default() }
         };
         let shared = Shared {
-            now: self.kinematics(drive, tau, state),
-            prescribed: [host(self.shaft.motion, &drive.shaft), host(self.housing.motion, &drive.housing)],
+            now: self.kinematics(excitation, tau, state),
+            prescribed: [host(self.shaft.motion, &excitation.shaft), host(self.housing.motion, &excitation.housing)],
             inverse_masses: self.supports.inverse_masses().fixed_rows::<4>(0).into(),
-            frames: drive.frame_rates(tau),
-            film_rate: drive.relative_speed.rate_at(tau),
+            frames: excitation.frame_rates(tau),
+            film_rate: excitation.relative_speed.rate_at(tau),
         };
-        self.add_supports(drive, tau, &shared, jacobian, by_time);
+        self.add_supports(excitation, tau, &shared, jacobian, by_time);
         if self.elements_in_balance() {
             return self.add_elements_in_balance(cells, state, &shared, jacobian);
         }
         for j in 0..self.element_count {
-            let element =
-                self.linearized(j, self.cells_of(cells, j), state[j], state[start + j], &shared.now, Bends::Wanted);
+            let element = self.linearized(j, self.cells_of(cells, j), [state[j], state[start + j]], &shared.now);
             self.add_element(j, &element, &shared, jacobian);
             self.add_element_by_time(j, &element, &shared, &jacobian.body_indices, by_time);
         }
@@ -242,7 +242,8 @@ impl Model {
     fn add_elements_in_balance(&self, cells: &Cells, state: &[f64], shared: &Shared, jacobian: &mut Jacobian) {
         let (mut by_position, mut by_velocity) = (RingJacobian::zeros(), RingJacobian::zeros());
         for j in 0..self.element_count {
-            let found = self.in_balance(j, self.cells_of(cells, j), state[j], &shared.now);
+            let at = self.element_motion(j, PathMotion::at_rest(state[j]), &shared.now);
+            let found = self.in_balance(self.cells_of(cells, j), state[j], &at);
             self.add_balanced(&found.elastic, &mut by_position);
             for axis in 0..2 {
                 let rings = self.damped_by_drift(&found, axis);
@@ -259,7 +260,7 @@ impl Model {
 
     /// One element's block, and its part of the bodies'.
     fn add_element(&self, j: usize, element: &Linearized, shared: &Shared, jacobian: &mut Jacobian) {
-        let Linearized { e_r, e_t, omega, by_q, by_q_rate, .. } = *element;
+        let (ElementMotion { e_r, e_t, omega, .. }, [by_q, by_q_rate]) = (element.at, element.by_q());
         let per_mass = self.inverse_element_mass;
         let by_path = element.change(&ElementVariation::of_path());
         let by_rate = element.change(&ElementVariation::of_path_rate());
@@ -268,17 +269,17 @@ impl Model {
         let on_rings = |shaft: Vector, housing: Vector| shared.inverse_masses.component_mul(&stacked(shaft, housing));
         jacobian.elements[j] = ElementBlock {
             e_r,
-            by_path: by_path.radial(element) * per_mass + omega * omega,
-            by_velocity: by_rate.radial(element) * per_mass,
+            by_path: by_path.radial() * per_mass + omega * omega,
+            by_velocity: by_rate.radial() * per_mass,
             by_offset: row_g * per_mass,
             by_shaft_velocity: -row_d * per_mass,
             by_housing_velocity: (e_t * row_d.dot(&e_t) + e_r * by_rate.outer.x) * per_mass + e_t * omega,
-            rings_by_path: on_rings(-by_path.inner, by_path.on_housing(element)),
-            rings_by_velocity: on_rings(-by_rate.inner, by_rate.on_housing(element)),
+            rings_by_path: on_rings(element.at.on_shaft(by_path.inner), element.at.on_housing(by_path.outer)),
+            rings_by_velocity: on_rings(element.at.on_shaft(by_rate.inner), element.at.on_housing(by_rate.outer)),
         };
         let of_shaft = shared.inverse_masses[0];
         let (g, d, swing) = (by_q * of_shaft, by_q_rate * of_shaft, by_q_rate * e_t * of_shaft * e_t.transpose());
-        let on_housing = by_rate.on_housing(element) * shared.inverse_masses[2] * e_r.transpose();
+        let on_housing = element.at.on_housing(by_rate.outer) * shared.inverse_masses[2] * e_r.transpose();
         let (position, velocity) = (&mut jacobian.by_position, &mut jacobian.by_velocity);
         let mut corner = position.fixed_view_mut::<2, 2>(0, 0);
         corner += g;
@@ -301,7 +302,7 @@ impl Model {
         body_indices: &[Option<BodyIndices>; BODIES],
         by_time: &mut [f64],
     ) {
-        let Linearized { e_r, e_t, rho, omega, .. } = *element;
+        let Linearized { at: ElementMotion { e_r, e_t, omega, .. }, rho, inner, outer, .. } = *element;
         let (now, [shaft, housing]) = (&shared.now, &shared.prescribed);
         let v = now.housing.velocity;
         let [_, alpha] = self.element_speed(j, &now.cage);
@@ -311,20 +312,19 @@ impl Model {
             drift: housing.velocity - shaft.velocity,
             path: 0.0,
             path_rate,
-            cage_angle: omega,
-            cage_speed: alpha,
+            angle: omega,
+            speed: alpha,
             film_speed: shared.film_rate,
             frames: shared.frames,
         });
         by_time[j] = path_rate;
-        by_time[self.layout.radial_velocity + j] = (with_time.inner.dot(&e_r) + omega * element.inner.dot(&e_t)
-            - with_time.outer.x)
+        by_time[self.layout.radial_velocity + j] = (with_time.radial() + omega * inner.force.y)
             * self.inverse_element_mass
             + omega * self.gravity.dot(&e_t)
             + alpha * (v.dot(&e_t) + 2.0 * rho * omega)
             + omega * (housing.velocity.dot(&e_t) - omega * v.dot(&e_r));
-        let turning = e_r * (omega * element.outer.y) + e_t * (omega * element.outer.x);
-        let force = stacked(-with_time.inner, with_time.on_housing(element) + turning);
+        let turning = e_r * (omega * outer.force.y) + e_t * (omega * outer.force.x);
+        let force = stacked(element.at.on_shaft(with_time.inner), element.at.on_housing(with_time.outer) + turning);
         for i in 0..4 {
             if let Some(BodyIndices { velocity, .. }) = body_indices[i] {
                 by_time[velocity] += shared.inverse_masses[i] * force[i];
@@ -333,7 +333,14 @@ impl Model {
     }
 
     /// Starts `jacobian` and `by_time` with what does not come from contacts: supports, sensor, loads.
-    fn add_supports(&self, drive: &Drive, tau: f64, shared: &Shared, jacobian: &mut Jacobian, by_time: &mut [f64]) {
+    fn add_supports(
+        &self,
+        excitation: &Excitation,
+        tau: f64,
+        shared: &Shared,
+        jacobian: &mut Jacobian,
+        by_time: &mut [f64],
+    ) {
         let [by_position, by_velocity] = self.supports.accelerations_by_motion();
         jacobian.by_position.copy_from(by_position);
         jacobian.by_velocity.copy_from(by_velocity);
@@ -342,7 +349,7 @@ impl Model {
         let [shaft, housing] = &shared.prescribed;
         let moves = Kinematics { shaft: *shaft, housing: *housing, ..*shared.now };
         let [velocity, acceleration] = moves.bodies();
-        let loads = drive.shaft_load.iter().chain(&drive.housing_load).map(|load| load.rate_at(tau));
+        let loads = excitation.shaft_load.iter().chain(&excitation.housing_load).map(|load| load.rate_at(tau));
         let loads = Bodies::from_iterator(loads.chain([0.0; MOST_SENSORS]));
         let forces = self.supports.forces(&velocity, &acceleration) + loads;
         let rates = forces.component_mul(&self.supports.inverse_masses());

@@ -1,6 +1,5 @@
 //! Derivatives of the equations of motion: Jacobian, tangent stiffness, change with an input.
 
-mod balance_variation;
 pub mod jacobian;
 pub mod variation;
 

@@ -20,13 +20,11 @@
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Meeting;
-use crate::dynamics::contacts::{Bends, Linearized};
+use crate::dynamics::contacts::{Linearized, Meeting};
 use crate::dynamics::parameters::{
-    Cells, Drive, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
+    Cells, Excitation, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
 };
-use crate::dynamics::quasi_static::RadialForce;
-use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
+use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
@@ -49,12 +47,17 @@ const ITERATIONS: i32 = 500;
 const CELLS: u32 = 8;
 
 impl Model {
-    /// Writes the static equilibrium under `drive` at τ = 0 into `state`; velocities are those of rings at rest, or of
-    /// prescribed rings that carry the elements along.
-    pub fn equilibrium(&self, drive: &Drive, cells: &Cells, state: &mut [f64]) -> Result<(), EquilibriumError> {
+    /// Writes the static equilibrium under `excitation` at τ = 0 into `state`; velocities are those of rings at rest,
+    /// or of prescribed rings that carry the elements along.
+    pub fn equilibrium(
+        &self,
+        excitation: &Excitation,
+        cells: &Cells,
+        state: &mut [f64],
+    ) -> Result<(), EquilibriumError> {
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
-        let given = Given { drive, cells, still: self.kinematics(drive, 0.0, state) };
+        let given = Given { excitation, cells, still: self.kinematics(excitation, 0.0, state) };
         let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
         let mut balance = self.balance(&given, rings, &mut u);
         let mut iteration = 0;
@@ -79,7 +82,7 @@ impl Model {
         }
         self.check_contacts(&given, rings, &u)?;
         self.check_elements(&given, rings, &mut u)?;
-        self.write(drive, rings, &u, state);
+        self.write(excitation, rings, &u, state);
         Ok(())
     }
 
@@ -88,12 +91,16 @@ impl Model {
     ///
     /// # Errors
     /// As there.
-    pub fn equilibrium_with_cells(&self, drive: &Drive, state: &mut [f64]) -> Result<Cells, EquilibriumError> {
+    pub fn equilibrium_with_cells(
+        &self,
+        excitation: &Excitation,
+        state: &mut [f64],
+    ) -> Result<Cells, EquilibriumError> {
         state.fill(0.0);
-        let mut cells = self.cells_at(drive, 0.0, state);
+        let mut cells = self.cells_at(excitation, 0.0, state);
         for _ in 0..CELLS {
-            self.equilibrium(drive, &cells, state)?;
-            let there = self.cells_at(drive, 0.0, state);
+            self.equilibrium(excitation, &cells, state)?;
+            let there = self.cells_at(excitation, 0.0, state);
             // A contact on a knot may be in either cell.
             if there == cells || !self.has_inner_defects() {
                 break;
@@ -103,46 +110,20 @@ impl Model {
         Ok(cells)
     }
 
-    /// The path (m) of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
-    /// `cage_angle` (rad) and all else as at the start.
-    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
-        let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
-        self.touching_path(j, [cell, SMOOTH], &now)
-    }
-
-    /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
-    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` (rad), rings concentric.
-    pub fn resting_opening(&self, j: usize, cage_angle: f64, shaft_angle: f64) -> f64 {
-        let mut now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        now.frames.0[Frame::Shaft as usize].angle = shaft_angle;
-        let direction = self.element_angle(j, &now.cage);
-        let cell = self.inner.defects.cell_at(direction - shaft_angle);
-        if cell == SMOOTH {
-            return 0.0;
-        }
-        let distance = self.outer_centre_radius - self.radial_clearance;
-        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance };
-        for _ in 0..20 {
-            let near = self.approach(RacewaySide::Inner, &at, &now.frames).approach;
-            let step = near.value / near.by_path;
-            (at.u, at.distance) = (at.u - step, at.distance + step);
-            if step.abs() < 1e-15 {
-                break;
-            }
-        }
-        at.u
-    }
-
     /// Element `j` in radial balance, looked for from path `guess` on.
-    fn balanced_element(&self, j: usize, cells: [[u32; 2]; 2], guess: f64, now: &FramedKinematics) -> ElementAtRest {
-        // u' = 0. Without second derivatives of the approach the slope is that of another damping, which Newton's
-        // method bears.
+    pub(super) fn balanced_element(
+        &self,
+        j: usize,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        now: &FramedKinematics,
+    ) -> ElementAtRest {
+        let at = self.element_motion(j, PathMotion::at_rest(guess), now).searched();
         let element = |u: f64| {
-            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
+            let element = self.linearized_at(cells, &at.on_path(u, 0.0));
             (self.radial_push(&element), element)
         };
-        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], now) };
+        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], at.angle, &at.frames) };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
             return ElementAtRest { path: touch, element: touching, nearer: None };
@@ -171,8 +152,8 @@ impl Model {
             Some((path, (other, there))) if force * other.force < 0.0 && other.force.is_finite() => {
                 let share = force / (force - other.force);
                 let mut between = here;
-                between.inner += (there.inner - here.inner) * share;
-                between.outer += (there.outer - here.outer) * share;
+                between.inner.force += (there.inner.force - here.inner.force) * share;
+                between.outer.force += (there.outer.force - here.outer.force) * share;
                 let nearer = if force.abs() <= other.force.abs() { u } else { path };
                 // Where it pushes its tangent is that of what it does between the two.
                 let path = if slope.abs() >= other.slope.abs() { u } else { path };
@@ -196,11 +177,11 @@ impl Model {
                 if at.cells == [SMOOTH; 2] {
                     continue;
                 }
-                let (Err(cause), _) = self.near_defect(side, &at, &now.frames) else { continue };
-                // The search may have ended on the far side, where all is no number.
-                let element = self.linearized_at(j, cells, PathMotion::at_rest(u - FURTHER), &now, Bends::LeftOut);
+                let Err(cause) = self.near(side, &at, &now.frames) else { continue };
+                // The search may have ended on the far side, where all is NaN.
+                let element = self.at_rest(j, cells, u - FURTHER, &now);
                 let residual = self.radial_balance(&element).force;
-                if !(residual.abs() <= UNBALANCED * element.inner.norm()) {
+                if !(residual.abs() <= UNBALANCED * element.inner.force.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
                     return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
                 }
@@ -215,7 +196,7 @@ impl Model {
         let now = given.with_rings(rings);
         for (j, path) in u.iter_mut().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let element = self.linearized_at(j, cells, PathMotion::at_rest(*path), &now, Bends::LeftOut);
+            let element = self.at_rest(j, cells, *path, &now);
             let RadialForce { force, slope } = self.radial_balance(&element);
             let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
             let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now).nearer).flatten();
@@ -230,31 +211,34 @@ impl Model {
 
     /// Balances all elements for given rings and sums the forces on the rings.
     fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
-        let Given { drive, cells, .. } = given;
+        let Given { excitation, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
         let play = now.offset().norm() + self.clearance(now.films.as_ref()).abs();
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
-                let found = self.in_balance(j, in_cells, u[j], &now);
-                let [shaft, housing] = found.exerted().rings;
+                let found = self.in_balance(in_cells, u[j], &self.element_motion(j, PathMotion::at_rest(u[j]), &now));
+                let [shaft, housing] = found.forces().on_rings();
                 force += stacked(shaft, housing);
                 ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
                 let found = self.balanced_element(j, in_cells, u[j], &now);
-                force += stacked(-found.element.inner, found.element.on_housing());
+                let element = &found.element;
+                let (inner, outer) = (element.inner.force, element.outer.force);
+                force += stacked(element.at.on_shaft(inner), element.at.on_housing(outer));
                 found
             };
             u[j] = path;
             if nearer.is_none() {
                 rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             }
-            contact_sum += element.inner.norm();
-            largest = largest.max(element.inner.amax()).max(element.outer.amax());
+            let (inner, outer) = (element.inner.force, element.outer.force);
+            contact_sum += inner.norm();
+            largest = largest.max(inner.amax()).max(outer.amax());
         }
         let load = |axis: &Quadratic| axis.at(0.0);
-        let loads = Rings::from_iterator(drive.shaft_load.iter().chain(&drive.housing_load).map(load));
+        let loads = Rings::from_iterator(excitation.shaft_load.iter().chain(&excitation.housing_load).map(load));
         let supports = Rings::from(self.supports.ring_stiffnesses()).component_mul(&rings);
         force += loads - supports;
         largest = largest.max(loads.amax()).max(supports.amax());
@@ -323,7 +307,7 @@ impl Model {
         None
     }
 
-    fn write(&self, drive: &Drive, rings: Rings, u: &[f64], state: &mut [f64]) {
+    fn write(&self, excitation: &Excitation, rings: Rings, u: &[f64], state: &mut [f64]) {
         let w = self.layout.radial_velocity;
         state[..self.element_count].copy_from_slice(u);
         for (index, first) in [(self.layout.shaft, 0), (self.layout.housing, 2)] {
@@ -332,7 +316,7 @@ impl Model {
             }
         }
         // At rest against the outer ring: u' = 0.
-        let Kinematics { cage, housing, .. } = self.kinematics(drive, 0.0, state).motion;
+        let Kinematics { cage, housing, .. } = self.kinematics(excitation, 0.0, state).motion;
         for j in 0..self.element_count {
             state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
         }
@@ -349,18 +333,18 @@ fn longest_step(iteration: i32) -> f64 {
 }
 
 /// An element in radial balance.
-struct ElementAtRest {
+pub(super) struct ElementAtRest {
     /// Its path (m).
-    path: f64,
+    pub(super) path: f64,
     /// Its contacts, with the forces of the balance.
     element: Linearized,
     /// Where the balance lies between this path and the next number: that of the two at which less force is left.
-    nearer: Option<f64>,
+    pub(super) nearer: Option<f64>,
 }
 
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
 struct Given<'a> {
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     cells: &'a Cells,
     still: FramedKinematics,
 }
@@ -385,7 +369,7 @@ struct Balance {
 }
 
 impl Balance {
-    /// Infinite where an element found no balance: nalgebra's largest passes over what is no number.
+    /// Infinite where an element found no balance: nalgebra's largest passes over NaN.
     fn residual(&self) -> f64 {
         if self.force.iter().all(|force| force.is_finite()) { self.force.amax() } else { f64::INFINITY }
     }

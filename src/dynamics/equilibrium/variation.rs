@@ -7,9 +7,9 @@
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
-use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::derivatives::Variation;
-use crate::dynamics::parameters::{Cells, Drive, FramedKinematics, Model};
+use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
@@ -18,16 +18,16 @@ impl Model {
     /// (N). `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
     ) -> Option<()> {
         if self.elements_in_balance() {
-            return self.vary_equilibrium_in_balance(drive, cells, state, loads, by);
+            return self.vary_equilibrium_in_balance(excitation, cells, state, loads, by);
         }
-        let now = self.kinematics(drive, 0.0, state);
+        let now = self.kinematics(excitation, 0.0, state);
         let given = ElementVariation {
             offset: by.offset(),
             drift: by.drift(),
@@ -38,7 +38,7 @@ impl Model {
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
         // In an uneven cage each element goes round at its own speed.
         let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
-            cage_speed: self.going(j, &now.cage, by).speed,
+            speed: self.going(j, &now.cage, by).speed,
             ..given
         };
         for j in 0..self.element_count {
@@ -51,13 +51,19 @@ impl Model {
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now);
             by.path[j] = self.balanced(&element, &own(j, whole, by)).path;
-            by.radial_velocity[j] = by.housing.velocity.dot(&element.e_r);
+            by.radial_velocity[j] = by.housing.velocity.dot(&element.at.e_r);
         }
         Some(())
     }
 
+    /// An element at the start; of one whose balance lies between two paths, at the path at which more touches it.
     fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &FramedKinematics) -> Linearized {
-        let cells = self.cells_of(cells, j);
-        self.linearized(j, cells, state[j], state[self.layout.radial_velocity + j], now, Bends::Wanted)
+        let (cells, path) = (self.cells_of(cells, j), state[j]);
+        let element = self.at_rest(j, cells, path, now);
+        if self.radial_balance(&element).force.abs() <= self.no_force(&element) {
+            return element;
+        }
+        let found = self.balanced_element(j, cells, path, now);
+        if found.nearer.is_some() { self.at_rest(j, cells, found.path, now) } else { element }
     }
 }

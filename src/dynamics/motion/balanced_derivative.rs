@@ -4,10 +4,9 @@
 //! Elements on smooth raceways are found side by side (`quasi_static::balance_lanes`), those with a
 //! contact near a defect, or on a raceway that yields, one by one (`quasi_static::element_balance`).
 
-use crate::dynamics::contacts::Linearized;
-use crate::dynamics::contacts::{Forces, Record};
-use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, SMOOTH, Stage, moved};
-use crate::dynamics::quasi_static::{BodyTorque, InBalance, SmoothElements};
+use crate::dynamics::contacts::{BodyTorque, FirstOrder, Forces, Linearized, Record};
+use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, PathMotion, SMOOTH, Stage, moved};
+use crate::dynamics::quasi_static::{InBalance, SmoothElements};
 use crate::numerics::lanes::{Lanes, Wide};
 use crate::numerics::plane::Vector;
 
@@ -22,16 +21,16 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let Stage { drive, cage, .. } = *stage;
-        self.begin(drive);
-        self.update_uneven(drive, cage, &mut forces.elements);
+        let Stage { excitation, cage, .. } = *stage;
+        self.begin(excitation);
+        self.update_uneven(excitation, cage, &mut forces.elements);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
             simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
         if !forces.searched.is_empty() {
             if self.has_frames {
-                forces.frames = drive.frames_at(cage.tau);
+                forces.frames = excitation.frames_at(cage.tau);
             }
             let found = self.searched_elements::<RECORD>(&now, stage, derivative, forces);
             rings.iter_mut().zip(found).for_each(|(sum, force)| *sum += force);
@@ -59,7 +58,7 @@ impl Model {
             let e_r = self.direction(j, &now.cage);
             let along = now.housing.velocity.dot(&e_r);
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
-            let found = self.in_balance(j, cells, guess, &now);
+            let found = self.in_balance(cells, guess, &self.element_motion(j, PathMotion::at_rest(guess), &now));
             forces.defect_lookups +=
                 found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
@@ -67,13 +66,13 @@ impl Model {
             {
                 forces.unsolved = Some(unsolved);
             }
-            let exerted = found.exerted();
-            for (sum, force) in rings.iter_mut().zip(exerted.rings) {
+            let exerted = found.forces();
+            for (sum, force) in rings.iter_mut().zip(exerted.on_rings()) {
                 *sum += force;
             }
             derivative[j] = found.path_rate;
             if RECORD {
-                for BodyTorque { frame, torque } in exerted.torques {
+                for BodyTorque { frame, torque } in exerted.torques() {
                     forces.torques[frame as usize] += torque;
                 }
                 self.record_balanced(j, &found, along, &mut forces.contacts);
@@ -85,20 +84,25 @@ impl Model {
 
     /// Keeps an element's contacts; `along` is the outer ring's velocity in its radial direction (m/s).
     fn record_balanced(&self, j: usize, found: &InBalance, along: f64, record: &mut Record) {
-        let Linearized { e_r, e_t, n, approaches, .. } = found.elastic;
+        let Linearized {
+            n,
+            inner: FirstOrder { approach: inside, .. },
+            outer: FirstOrder { approach: outside, .. },
+            ..
+        } = found.elastic;
         let (inner, outer) = (found.inner.norm(), found.outer.norm());
-        let direction = if inner > 0.0 { found.inner / inner } else { n };
+        let direction = if inner > 0.0 { found.inner / inner } else { n.into() };
         for (list, value) in [
             (&mut record.inner, inner),
-            (&mut record.normal_radial, direction.dot(&e_r)),
-            (&mut record.normal_tangential, direction.dot(&e_t)),
+            (&mut record.normal_radial, direction.x),
+            (&mut record.normal_tangential, direction.y),
             (&mut record.outer, outer),
             (&mut record.outer_radial, found.outer.x),
             (&mut record.outer_tangential, found.outer.y),
-            (&mut record.inner_approach, approaches[0]),
-            (&mut record.outer_approach, approaches[1]),
-            (&mut record.inner_pushing, self.inner.contact.pushing(approaches[0], 0.0)),
-            (&mut record.outer_pushing, self.outer.contact.pushing(approaches[1], 0.0)),
+            (&mut record.inner_approach, inside),
+            (&mut record.outer_approach, outside),
+            (&mut record.inner_pushing, self.inner.contact.pushing(inside, 0.0)),
+            (&mut record.outer_pushing, self.outer.contact.pushing(outside, 0.0)),
             (&mut record.path_rate, found.path_rate),
         ] {
             list[j] = value;

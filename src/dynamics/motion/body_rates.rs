@@ -15,10 +15,11 @@ impl Model {
         [shaft_x, shaft_y, housing_x, housing_y]: [f64; 4],
         derivative: &mut [f64],
     ) {
-        let Stage { drive, cage: &CageState { tau, .. }, state, ahead } = *stage;
+        let Stage { excitation, cage: &CageState { tau, .. }, state, ahead } = *stage;
         let supports = &self.supports;
         if let Some(i) = self.layout.shaft {
-            let force = Vector::new(drive.shaft_load[0].at(tau) + shaft_x, drive.shaft_load[1].at(tau) + shaft_y);
+            let force =
+                Vector::new(excitation.shaft_load[0].at(tau) + shaft_x, excitation.shaft_load[1].at(tau) + shaft_y);
             supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
         }
         let mut reaction = Vector::zeros();
@@ -29,7 +30,7 @@ impl Model {
             sensor.rates(simd, v, force).store(derivative, i);
         }
         if let Some(i) = self.layout.housing {
-            let load = &drive.housing_load;
+            let load = &excitation.housing_load;
             let force =
                 Vector::new(load[0].at(tau) + (housing_x + reaction.x), load[1].at(tau) + (housing_y + reaction.y));
             supports.housing.ring_rates(simd, &now.housing, force).store(derivative, i);

@@ -7,7 +7,7 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
-use crate::dynamics::parameters::{CageState, Drive, Model};
+use crate::dynamics::parameters::{CageState, Excitation, Model};
 use crate::numerics::plane::turned;
 use crate::numerics::polynomials::Quintic;
 
@@ -25,14 +25,14 @@ impl Model {
     #[inline(always)]
     pub(crate) fn dense_output(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         ends: [Known; 2],
         h: f64,
         share: f64,
         cage: &CageState,
         out: &mut [f64],
     ) {
-        self.begin(drive);
+        self.begin(excitation);
         let layout = &self.layout;
         let basis = Quintic::new(h, share);
         let value = |i: usize| ends.map(|end| end.state[i]);
@@ -43,17 +43,17 @@ impl Model {
                 (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
             }
         }
-        let housing = ends.map(|end| self.housing_state(drive, end.cage.tau, end.state).velocity);
-        let acceleration = ends.map(|end| self.ring_rates(drive, end.cage.tau, end.derivative)[1].velocity);
-        let velocity = self.housing_state(drive, cage.tau, out).velocity;
+        let housing = ends.map(|end| self.housing_state(excitation, end.cage.tau, end.state).velocity);
+        let acceleration = ends.map(|end| self.ring_rates(excitation, end.cage.tau, end.derivative)[1].velocity);
+        let velocity = self.housing_state(excitation, cage.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
-            let bend = [0, 1].map(|k| {
+            let second = [0, 1].map(|k| {
                 let (e_r, cage) = (self.direction(j, &ends[k].cage), &ends[k].cage);
                 let [speed, _] = self.element_speed(j, cage);
                 ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
             });
-            let (path, path_rate) = basis.at(value(j), rate(j), bend);
+            let (path, path_rate) = basis.at(value(j), rate(j), second);
             out[j] = path;
             out[w + j] = path_rate + self.direction(j, cage).dot(&velocity);
         }
@@ -69,7 +69,7 @@ mod tests {
     use crate::scene::{Damping, Motion};
 
     /// The state after `time`, by many classical Runge–Kutta steps.
-    fn integrated(model: &Model, drive: &Drive, state: &[f64], cells: &Cells, time: f64) -> Vec<f64> {
+    fn integrated(model: &Model, excitation: &Excitation, state: &[f64], cells: &Cells, time: f64) -> Vec<f64> {
         let (mut y, mut forces, count) = (state.to_vec(), Forces::new(model.element_count), 50);
         let h = time / f64::from(count);
         for step in 0..count {
@@ -77,7 +77,7 @@ mod tests {
             let mut rate = |share: f64, k: &[f64]| {
                 let at: Vec<f64> = y.iter().zip(k).map(|(y, k)| y + share * h * k).collect();
                 let mut rate = vec![0.0; y.len()];
-                model.derivative(drive, tau + share * h, cells, &at, &mut rate, &mut forces);
+                model.derivative(excitation, tau + share * h, cells, &at, &mut rate, &mut forces);
                 rate
             };
             let a = rate(0.0, &vec![0.0; state.len()]);
@@ -97,20 +97,20 @@ mod tests {
         // or of the outer ring's acceleration they would miss 1e-7.
         let h = 2e-7;
         for motion in [Motion::Internal, Motion::Host] {
-            let (model, drive) = lively([motion; 2], Damping::HuntCrossley(0.3), 0.2);
-            let (state, cells) = moving(&model, &drive, 5);
-            let end = integrated(&model, &drive, &state, &cells, h);
+            let (model, excitation) = lively([motion; 2], Damping::HuntCrossley(0.3), 0.2);
+            let (state, cells) = moving(&model, &excitation, 5);
+            let end = integrated(&model, &excitation, &state, &cells, h);
             let mut forces = Forces::new(model.element_count);
             let mut rates = [vec![0.0; state.len()], vec![0.0; state.len()]];
             for ((at, tau), rates) in [(&state, 0.0), (&end, h)].into_iter().zip(&mut rates) {
-                model.derivative(&drive, tau, &cells, at, rates, &mut forces);
+                model.derivative(&excitation, tau, &cells, at, rates, &mut forces);
             }
-            let known = |state, derivative, tau| Known { cage: drive.cage_at(tau), state, derivative };
+            let known = |state, derivative, tau| Known { cage: excitation.cage_at(tau), state, derivative };
             let ends = [known(&state[..], &rates[0][..], 0.0), known(&end, &rates[1], h)];
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
-                model.dense_output(&drive, ends, h, share, &drive.cage_at(share * h), &mut found);
-                let expected = integrated(&model, &drive, &state, &cells, share * h);
+                model.dense_output(&excitation, ends, h, share, &excitation.cage_at(share * h), &mut found);
+                let expected = integrated(&model, &excitation, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };
                     let miss = (found[i] - expected[i]).abs();

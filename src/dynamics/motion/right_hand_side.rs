@@ -15,8 +15,8 @@
 //! velocity, no ring acceleration enters. The cage is kinematic: it takes up every tangential force on the elements.
 //! What it takes is the cage torque.
 
-use crate::dynamics::contacts::{Forces, OtherOuter};
-use crate::dynamics::parameters::{Cells, Drive, Frame, Model, Stage};
+use crate::dynamics::contacts::{Forces, NonSmoothOuter};
+use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
 use crate::numerics::lanes::{Kernel, Lanes, Wide, dispatch};
 use crate::numerics::plane::{Vector, turned};
 
@@ -24,7 +24,7 @@ impl Model {
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
     pub fn derivative(
         &self,
-        drive: &Drive,
+        excitation: &Excitation,
         tau: f64,
         cells: &Cells,
         state: &[f64],
@@ -32,7 +32,7 @@ impl Model {
         forces: &mut Forces,
     ) {
         forces.enter(self, cells);
-        let stage = Stage { drive, cage: &drive.cage_at(tau), state, ahead: None };
+        let stage = Stage { excitation, cage: &excitation.cage_at(tau), state, ahead: None };
         dispatch(Derivative { model: self, stage, derivative, forces });
     }
 
@@ -47,8 +47,8 @@ impl Model {
         forces: &mut Forces,
     ) {
         // Before anything else, so that nothing of it is in the way of dry contacts in even cages.
-        if self.is_special() {
-            return simd.outlined(SpecialDerivative::<RECORD>(Derivative {
+        if self.is_uneven_or_oiled() {
+            return simd.outlined(UnevenOrOiledDerivative::<RECORD>(Derivative {
                 model: self,
                 stage: *stage,
                 derivative,
@@ -58,29 +58,29 @@ impl Model {
         self.derivative_in::<S, RECORD, false>(simd, stage, derivative, forces);
     }
 
-    /// As [`Self::derivative_on`]; if `SPECIAL`, in an uneven cage or with oil films.
+    /// As [`Self::derivative_on`]; if `UNEVEN_OR_OILED`, in an uneven cage or with oil films.
     #[inline(always)]
-    fn derivative_in<S: Wide, const RECORD: bool, const SPECIAL: bool>(
+    fn derivative_in<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
         &self,
         simd: S,
         stage: &Stage,
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        let Stage { drive, cage, state, ahead } = *stage;
-        if SPECIAL {
-            self.begin(drive);
-            self.update_uneven(drive, cage, &mut forces.elements);
+        let Stage { excitation, cage, state, ahead } = *stage;
+        if UNEVEN_OR_OILED {
+            self.begin(excitation);
+            self.update_uneven(excitation, cage, &mut forces.elements);
             if let Some(films) = &self.films {
-                films.renew(&mut forces.films, drive.relative_speed.at(cage.tau));
+                films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
             }
         }
         let (now, tau) = (self.kinematics_of(stage), cage.tau);
-        let [outer, inner] = [forces.other_outer.is_empty(), forces.other_inner.is_empty()].map(|none| !none);
+        let [outer, inner] = [forces.non_smooth_outer.is_empty(), forces.non_smooth_inner.is_empty()].map(|none| !none);
         let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
         if outer || inner {
             if self.has_frames {
-                forces.frames = drive.frames_at(tau);
+                forces.frames = excitation.frames_at(tau);
             }
             if RECORD {
                 forces.torques = [0.0; 3];
@@ -88,7 +88,7 @@ impl Model {
             // A copy for each call, so that what is known of the instant can stay in registers: what is written to
             // memory in parts and read together soon after is read late.
             if outer {
-                on_housing = simd.outlined(OtherOuter::<RECORD> {
+                on_housing = simd.outlined(NonSmoothOuter::<RECORD> {
                     model: self,
                     now: &{ now },
                     state,
@@ -97,10 +97,10 @@ impl Model {
                 });
             }
             if inner {
-                on_shaft = self.other_inner_contacts::<RECORD>(&{ now }, state, ahead, forces);
+                on_shaft = self.non_smooth_inner_contacts::<RECORD>(&{ now }, state, ahead, forces);
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, SPECIAL>(
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, UNEVEN_OR_OILED>(
             simd,
             &now,
             stage,
@@ -111,7 +111,7 @@ impl Model {
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
         let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
         if RECORD && (outer || inner) {
-            forces.record_others();
+            forces.record_non_smooth();
         }
         Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
         self.body_rates(simd, stage, &now, [shaft_x, shaft_y, housing_x, housing_y], derivative);
@@ -119,21 +119,23 @@ impl Model {
 
     /// Torque of the elements on the cage about the outer ring's centre (N m), counter-clockwise.
     ///
-    /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
-    /// gravity do not supply, it does. It also takes up the torque of an element's defect on that element, whose spin
-    /// is forced as well. `acceleration` is the outer ring's (m/s²).
-    pub fn cage_torque(&self, drive: &Drive, tau: f64, state: &[f64], acceleration: Vector, forces: &Forces) -> f64 {
-        self.begin(drive);
-        let cage = drive.cage_at(tau);
+    /// It also takes up the torque of an element's defect on that element, whose spin is forced as well. `acceleration`
+    /// is the outer ring's (m/s²).
+    pub fn cage_torque(
+        &self,
+        excitation: &Excitation,
+        tau: f64,
+        state: &[f64],
+        acceleration: Vector,
+        forces: &Forces,
+    ) -> f64 {
+        self.begin(excitation);
+        let (cage, contacts, paths) = (excitation.cage_at(tau), &forces.contacts, forces.paths(self, state));
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {
-                let e_t = turned(self.direction(j, &cage));
-                let [speed, alpha] = self.element_speed(j, &cage);
-                let rho = self.outer_centre_radius + forces.paths(self, state)[j];
-                let contacts = &forces.contacts;
-                let inertia = acceleration.dot(&e_t) + 2.0 * contacts.path_rate[j] * speed + rho * alpha;
-                let contacts = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                rho * (contacts + self.element_mass * (self.gravity.dot(&e_t) - inertia))
+                let (e_t, turning) = (turned(self.direction(j, &cage)), self.element_speed(j, &cage));
+                let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
+                self.torque_on_cage(e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
             })
             .sum();
         of_paths + forces.torque_on(Frame::Spin)
@@ -158,9 +160,9 @@ impl Kernel for Derivative<'_> {
 }
 
 /// As [`Derivative`], in an uneven cage or with oil films.
-struct SpecialDerivative<'a, const RECORD: bool>(Derivative<'a>);
+struct UnevenOrOiledDerivative<'a, const RECORD: bool>(Derivative<'a>);
 
-impl<const RECORD: bool> Kernel for SpecialDerivative<'_, RECORD> {
+impl<const RECORD: bool> Kernel for UnevenOrOiledDerivative<'_, RECORD> {
     type Output = ();
 
     #[inline(always)]

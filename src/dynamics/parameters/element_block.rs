@@ -25,7 +25,7 @@ pub(in crate::dynamics) struct ElementBlock {
     /// Angular speed of the element about the outer ring's centre by that of the nominal cage.
     pub(in crate::dynamics) pace: [f64; WIDEST],
     /// How that changes with the nominal cage's angle (1/rad).
-    pub(in crate::dynamics) bend: [f64; WIDEST],
+    pub(in crate::dynamics) pace_by_angle: [f64; WIDEST],
 }
 
 /// All elements of a bearing at these angles (rad) ahead of the cage, of mass 1/`per_mass` (kg)

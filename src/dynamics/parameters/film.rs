@@ -10,10 +10,9 @@
 //! second, which is left out.
 
 use crate::contact::law::SqueezeFilm;
-use crate::contact::law::{Force, ROUGHNESS};
-use crate::contact::rolling::RacewaySide;
 use crate::geometry::film_thickness::speed_factor;
 use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio};
+use crate::numerics::number::Scalar;
 use crate::scene::{Remark, Scene};
 
 /// Force on the most loaded of Z elements over the whole load, times Z: Stribeck's 5.
@@ -37,6 +36,15 @@ pub struct Films {
     layer: Option<f64>,
     /// ū per speed of one ring against the other.
     ratio: f64,
+}
+
+/// The films of both raceways as contacts see them.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct OilFilms<T> {
+    /// What resists on the inner and on the outer raceway.
+    pub(in crate::dynamics) squeeze: [SqueezeFilm<T>; 2],
+    /// What both take of the clearance (m).
+    pub(in crate::dynamics) together: T,
 }
 
 /// The films of the inner and of the outer raceway at one speed.
@@ -85,55 +93,24 @@ impl Films {
 }
 
 impl FilmsNow {
+    /// Speed of the inner ring against the outer that they follow (rad/s).
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
     /// Thickness of both films together (m).
     #[inline(always)]
     pub fn together(&self) -> f64 {
         self.thickness[0] + self.thickness[1]
     }
 
-    /// Its change with the speed (m s/rad); 0 where nothing turns.
-    pub fn together_by_speed(&self) -> f64 {
-        self.relative_by_speed() * self.together()
-    }
-
-    /// Relative change of a thickness with the speed (s/rad); 0 where nothing turns.
-    fn relative_by_speed(&self) -> f64 {
-        if self.speed == 0.0 { 0.0 } else { SPEED_EXPONENT / self.speed }
-    }
-
-    /// Change of what resists on one raceway with the speed (N s/rad), at an approach (m) and its rate (m/s).
-    fn resistance_by_speed(&self, side: RacewaySide, approach: f64, rate: f64) -> f64 {
-        let thickness = self.thickness[side as usize];
-        // A film below the asperities leaves the gap to them.
-        let by_speed = if thickness > ROUGHNESS { self.relative_by_speed() * thickness } else { 0.0 };
-        self.squeeze[side as usize].by_thickness(approach, rate) * by_speed
-    }
-}
-
-/// Force of the film of one raceway (N) at an approach (m) and its rate (m/s).
-#[inline(always)]
-pub(in crate::dynamics) fn film_force(films: Option<&FilmsNow>, side: RacewaySide, approach: f64, rate: f64) -> f64 {
-    films.map_or(0.0, |films| films.squeeze[side as usize].force(|x| x, approach, rate))
-}
-
-/// What a film resists with, to first order.
-pub(in crate::dynamics) struct Resistance {
-    /// By approach and rate.
-    pub(in crate::dynamics) force: Force,
-    /// By the speed that films follow (N s/rad).
-    pub(in crate::dynamics) by_speed: f64,
-}
-
-/// As [`film_force`], with its derivatives.
-pub(in crate::dynamics) fn resistance(
-    films: Option<&FilmsNow>,
-    side: RacewaySide,
-    approach: f64,
-    rate: f64,
-) -> Resistance {
-    let Some(films) = films else { return Resistance { force: Force::default(), by_speed: 0.0 } };
-    Resistance {
-        force: films.squeeze[side as usize].with_derivatives(approach, rate),
-        by_speed: films.resistance_by_speed(side, approach, rate),
+    /// These films with the derivatives of the speed that they follow, whose value is theirs (rad/s): what resists on
+    /// either raceway, and the thickness of both together (m). Where nothing turns they have none.
+    pub(in crate::dynamics) fn following<T: Scalar>(&self, speed: T) -> OilFilms<T> {
+        let exponent = if self.speed == 0.0 { 0.0 } else { SPEED_EXPONENT / self.speed };
+        let change = (speed - T::from(self.speed)) * T::Plain::from(exponent) + T::from(1.0);
+        let [inner, outer] = self.thickness.map(|thickness| change * T::Plain::from(thickness));
+        let [on_inner, on_outer] = self.squeeze;
+        OilFilms { squeeze: [on_inner.of_thickness(inner), on_outer.of_thickness(outer)], together: inner + outer }
     }
 }

@@ -40,8 +40,8 @@ pub struct Irregularity {
     /// That of the wander's (rad); 0 for none.
     wander: f64,
     count: usize,
-    /// Whole turns of the cage at the communication point. Kept here beside the drive, which has them: with one number
-    /// more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
+    /// Whole turns of the cage at the communication point. Kept here beside the excitation, which has them: with one
+    /// number more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
     turns: Cell<i64>,
     /// The polynomials of the intervals evaluated last: nothing but a shortcut.
     pieces: RefCell<Pieces>,
@@ -56,9 +56,9 @@ pub struct Lead {
     /// First derivative.
     pub rate: f64,
     /// Second derivative (1/rad).
-    pub bend: f64,
+    pub second: f64,
     /// Third derivative (1/rad²).
-    pub twist: f64,
+    pub third: f64,
 }
 
 /// Cubic polynomials of the present intervals.
@@ -82,14 +82,14 @@ struct KnotPosition {
 
 /// Courses of random numbers; 0 is that of the constant offsets.
 #[derive(Clone, Copy)]
-enum Course {
+enum NoiseSeries {
     /// Of the cage.
     Wander,
     /// Of an element.
     Jitter(usize),
 }
 
-impl Course {
+impl NoiseSeries {
     fn number(self) -> u64 {
         match self {
             Self::Wander => 1,
@@ -105,8 +105,8 @@ impl std::ops::Add for Lead {
         Self {
             angle: self.angle + other.angle,
             rate: self.rate + other.rate,
-            bend: self.bend + other.bend,
-            twist: self.twist + other.twist,
+            second: self.second + other.second,
+            third: self.third + other.third,
         }
     }
 }
@@ -155,7 +155,7 @@ impl Irregularity {
         if self.jitter == 0.0 {
             for block in elements {
                 (block.lead, block.pace) = ([common.angle; WIDEST], [1.0 + common.rate; WIDEST]);
-                block.bend = [common.bend; WIDEST];
+                block.pace_by_angle = [common.second; WIDEST];
             }
             return;
         }
@@ -163,7 +163,7 @@ impl Irregularity {
         for (block, pieces) in elements.iter_mut().zip(pieces.of_elements.chunks(WIDEST)) {
             for (i, piece) in pieces.iter().enumerate() {
                 let found = common + evaluated(piece, share, self.count as f64 / TAU);
-                (block.lead[i], block.pace[i], block.bend[i]) = (found.angle, 1.0 + found.rate, found.bend);
+                (block.lead[i], block.pace[i], block.pace_by_angle[i]) = (found.angle, 1.0 + found.rate, found.second);
             }
         }
     }
@@ -183,7 +183,7 @@ impl Irregularity {
     fn renew(&self, pieces: &mut Pieces, interval: i64) {
         pieces.jitter = Some(interval);
         for (j, piece) in pieces.of_elements.iter_mut().enumerate() {
-            *piece = self.piece(Course::Jitter(j), interval, self.jitter);
+            *piece = self.piece(NoiseSeries::Jitter(j), interval, self.jitter);
         }
     }
 
@@ -191,8 +191,8 @@ impl Irregularity {
     #[cold]
     #[inline(never)]
     pub fn speed_of_element(&self, j: usize, cage: CageState) -> [f64; 2] {
-        let Lead { rate, bend, .. } = self.of_element(j, &cage);
-        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * bend]
+        let Lead { rate, second, .. } = self.of_element(j, &cage);
+        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * second]
     }
 
     /// Sine and cosine of the angle of element `j`, which is `offset` ahead of the cage but for its lead.
@@ -220,8 +220,8 @@ impl Irregularity {
         let mut pieces = self.pieces.borrow_mut();
         if pieces.wander != Some(interval) {
             pieces.wander = Some(interval);
-            let mut piece = self.piece(Course::Wander, interval, self.wander);
-            piece[0] -= self.piece(Course::Wander, 0, self.wander)[0];
+            let mut piece = self.piece(NoiseSeries::Wander, interval, self.wander);
+            piece[0] -= self.piece(NoiseSeries::Wander, 0, self.wander)[0];
             pieces.of_cage = piece;
         }
         evaluated(&pieces.of_cage, share, per_turn / TAU)
@@ -239,7 +239,7 @@ impl Irregularity {
 
     /// The spline's polynomial in one interval.
     #[cold]
-    fn piece(&self, course: Course, interval: i64, deviation: f64) -> [f64; 4] {
+    fn piece(&self, course: NoiseSeries, interval: i64, deviation: f64) -> [f64; 4] {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| deviation * gaussian(self.seed, course.number(), interval + k));
         [(a + 4.0 * b + c) / 6.0, (c - a) / 2.0, (a - 2.0 * b + c) / 2.0, (3.0 * (b - c) + (d - a)) / 6.0]
     }
@@ -253,8 +253,8 @@ fn evaluated(&[c0, c1, c2, c3]: &[f64; 4], t: f64, per_radian: f64) -> Lead {
     Lead {
         angle: c0 + t * (c1 + t * (c2 + t * c3)),
         rate: (c1 + t * (2.0 * c2 + t * 3.0 * c3)) * per_radian,
-        bend: (2.0 * c2 + t * 6.0 * c3) * square,
-        twist: 6.0 * c3 * square * per_radian,
+        second: (2.0 * c2 + t * 6.0 * c3) * square,
+        third: 6.0 * c3 * square * per_radian,
     }
 }
 
@@ -280,7 +280,7 @@ mod tests {
             for j in [0, 8] {
                 let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, &at(&of, 0, angle + by)));
                 for (values, slope, size) in
-                    [([before.angle, after.angle], here.rate, 1.0), ([before.rate, after.rate], here.bend, 10.0)]
+                    [([before.angle, after.angle], here.rate, 1.0), ([before.rate, after.rate], here.second, 10.0)]
                 {
                     // Central differences, a knot perhaps between them.
                     let quotient = (values[1] - values[0]) / (2.0 * step);
@@ -289,8 +289,8 @@ mod tests {
                 if (of.knot_position(&at(&of, 0, angle), 9.0).share - 0.5).abs() < 0.4
                     && (of.knot_position(&at(&of, 0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
                 {
-                    let quotient = (after.bend - before.bend) / (2.0 * step);
-                    assert!((quotient - here.twist).abs() < 1e-5, "{angle} {quotient} {}", here.twist);
+                    let quotient = (after.second - before.second) / (2.0 * step);
+                    assert!((quotient - here.third).abs() < 1e-5, "{angle} {quotient} {}", here.third);
                 }
             }
         }

@@ -3,7 +3,7 @@
 //! The cage is known before the state is, so its part is worked out first, for several instants of a step together.
 //! Rings follow from the state where it has them, else from the host.
 
-use super::drive::{Cubic, Drive, Frames};
+use super::excitation::{Cubic, Excitation, Frames};
 use super::film::FilmsNow;
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
@@ -91,7 +91,7 @@ impl DerefMut for FramedKinematics {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stage<'a> {
     /// What acts from outside.
-    pub(crate) drive: &'a Drive,
+    pub(crate) excitation: &'a Excitation,
     /// The cage at the stage's instant.
     pub(crate) cage: &'a CageState,
     /// State vector.
@@ -145,7 +145,7 @@ impl Kinematics {
     }
 }
 
-impl Drive {
+impl Excitation {
     /// The cage at `tau`.
     #[inline]
     pub fn cage_at(&self, tau: f64) -> CageState {
@@ -185,7 +185,7 @@ impl Drive {
     }
 }
 
-/// Angle up to which the series of [`Drive::cage_after`] hold to rounding (rad): 0.03¹⁰/10! is 2e-22.
+/// Angle up to which the series of [`Excitation::cage_after`] hold to rounding (rad): 0.03¹⁰/10! is 2e-22.
 const SMALL_ANGLE: f64 = 0.03;
 
 #[inline(always)]
@@ -220,16 +220,20 @@ pub(in crate::dynamics) fn moved(position: f64, rate: f64, ahead: Option<f64>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::parameters::drive::Quadratic;
+    use crate::dynamics::parameters::excitation::Quadratic;
 
     #[test]
     fn cages_worked_out_together_are_those_worked_out_alone() {
         for (speed, acceleration) in [(100.0, 0.0), (-3000.0, 1e7), (0.0, 0.0), (1e4, -1e9)] {
             for from in [0.0, 3e-4] {
-                let drive = Drive { cage_start: 2.5, cage: Quadratic([0.0, speed, acceleration]), ..Drive::default() };
+                let excitation = Excitation {
+                    cage_start: 2.5,
+                    cage: Quadratic([0.0, speed, acceleration]),
+                    ..Excitation::default()
+                };
                 let after = [0.0, 1e-7, 3e-6, 1e-5];
-                for (together, after) in drive.cage_after(from, after).into_iter().zip(after) {
-                    let alone = drive.cage_at(from + after);
+                for (together, after) in excitation.cage_after(from, after).into_iter().zip(after) {
+                    let alone = excitation.cage_at(from + after);
                     // A rounding or two of numbers up to 1, and of the angle.
                     let angle = 4.0 * f64::EPSILON * (1.0 + alone.angle.abs());
                     assert!((together.direction.x - alone.direction.x).abs() < angle, "{together:?} {alone:?}");

@@ -1,7 +1,7 @@
 //! What a bearing is made of, as numbers of the equations, and what acts on it.
 
-mod drive;
 mod element_block;
+mod excitation;
 pub mod film;
 mod irregularity;
 mod kinematics;
@@ -12,12 +12,12 @@ mod ring_motion;
 mod sensor_modes;
 mod supports;
 
-pub use drive::{Cubic, Drive, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
+pub use excitation::{Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
 pub use irregularity::{Irregularity, Lead};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;
-pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Near, Raceway, SMOOTH, SurfaceDefect};
+pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Raceway, SMOOTH, SurfaceDefect};
 pub use sensor_modes::SensorModes;
 pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorSupport, Support, Supports};
 
@@ -25,5 +25,5 @@ pub(crate) use kinematics::Stage;
 pub(crate) use sensor_modes::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
-pub(in crate::dynamics) use film::{FilmsNow, Resistance, film_force, resistance};
+pub(in crate::dynamics) use film::{FilmsNow, OilFilms};
 pub(in crate::dynamics) use kinematics::{PathMotion, moved, prescribed_rate};

@@ -1,8 +1,8 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
-use super::drive::{Drive, Frame};
 use super::element_block::{ElementBlock, blocks};
-use super::film::{Films, FilmsNow};
+use super::excitation::{Excitation, Frame};
+use super::film::{Films, FilmsNow, OilFilms};
 use super::irregularity::{Irregularity, Lead};
 use super::kinematics::CageState;
 use super::layout::Layout;
@@ -12,6 +12,7 @@ use super::supports::Supports;
 use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned_by};
 use crate::numerics::sin_cos;
 use crate::scene::{Damping, ElementInertia, Ring, Scene};
@@ -187,7 +188,7 @@ impl Model {
 
     /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
     #[inline(always)]
-    pub(in crate::dynamics) fn is_special(&self) -> bool {
+    pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
         self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some()
     }
 
@@ -197,24 +198,30 @@ impl Model {
         self.dampers.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this drive begins.
+    /// Tells an uneven cage after how many turns the communication step of this excitation begins.
     #[inline(always)]
-    pub fn begin(&self, drive: &Drive) {
+    pub fn begin(&self, excitation: &Excitation) {
         if let Some(uneven) = &self.irregularity {
-            uneven.begin(drive.cage_turns);
+            uneven.begin(excitation.cage_turns);
         }
     }
 
     /// The oil films at `tau`; `None` of dry contacts.
     #[inline(always)]
-    pub fn films_at(&self, drive: &Drive, tau: f64) -> Option<FilmsNow> {
-        self.films.as_ref().map(|films| films.at(drive.relative_speed.at(tau)))
+    pub fn films_at(&self, excitation: &Excitation, tau: f64) -> Option<FilmsNow> {
+        self.films.as_ref().map(|films| films.at(excitation.relative_speed.at(tau)))
     }
 
     /// What separates a raceway from an element pressed to the other (m), films included.
     #[inline(always)]
     pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
         films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
+    }
+
+    /// As [`Self::clearance`], for films with derivatives.
+    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, films: Option<&OilFilms<T>>) -> T {
+        let clearance = T::from(self.radial_clearance);
+        films.map_or(clearance, |films| clearance - films.together)
     }
 
     /// What element `j` is ahead of its position in a cage that turns evenly.
@@ -275,9 +282,14 @@ impl Model {
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
     /// an even one.
     #[inline(always)]
-    pub(in crate::dynamics) fn update_uneven(&self, drive: &Drive, cage: &CageState, elements: &mut [ElementBlock]) {
+    pub(in crate::dynamics) fn update_uneven(
+        &self,
+        excitation: &Excitation,
+        cage: &CageState,
+        elements: &mut [ElementBlock],
+    ) {
         let Some(uneven) = &self.irregularity else { return };
-        uneven.begin(drive.cage_turns);
+        uneven.begin(excitation.cage_turns);
         uneven.update_all(cage, elements);
         for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
             for (i, &offset) in offsets.iter().enumerate() {

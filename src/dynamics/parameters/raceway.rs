@@ -6,10 +6,11 @@
 //! together stands here and nowhere else. Angles are in radians, counter-clockwise; those from a defect's centre within
 //! half a turn.
 
-use super::drive::{Frame, Frames};
+use super::excitation::{Frame, Frames};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
-use crate::contact::near_defect::{Approach, Lever, NearDefect};
+use crate::contact::near_defect::{Approach, NearDefect};
+use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
 use std::f64::consts::TAU;
 
@@ -74,17 +75,6 @@ pub struct Ahead {
     pub beyond: u32,
 }
 
-/// Approach near a defect, and the speed (rad/s) of the body that bears the defect.
-#[derive(Debug, Clone, Copy)]
-pub struct Near {
-    /// The approach; its angle is that of the contact against the body.
-    pub approach: Approach,
-    /// Speed of the body's frame (rad/s).
-    pub frame_speed: f64,
-    /// Which frame that is.
-    pub frame: Frame,
-}
-
 /// Cells in which all contacts are.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Cells {
@@ -94,24 +84,6 @@ pub struct Cells {
     pub inner: Vec<u32>,
     /// Of each defective element, in contact with the inner and with the outer raceway.
     pub own: Vec<[u32; 2]>,
-}
-
-impl Near {
-    /// An approach to a surface that turns with `frame`.
-    #[inline(always)]
-    pub fn new(approach: Approach, frame: Frame, frames: &Frames) -> Self {
-        Self { approach, frame_speed: frames.of(frame).speed, frame }
-    }
-
-    /// That of the smooth raceway at approach `u` (m).
-    pub fn smooth(u: f64) -> Self {
-        Self { approach: Approach::smooth(u), frame_speed: 0.0, frame: Frame::Housing }
-    }
-
-    /// No number at all: an integration that meets it takes the step back.
-    pub fn unsolved() -> Self {
-        Self { approach: Approach::unsolved(), frame_speed: 0.0, frame: Frame::Housing }
-    }
 }
 
 impl Cells {
@@ -192,20 +164,22 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m) and a direction (rad) against
-    /// the axes.
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a direction (rad) against the
+    /// axes and a `distance` (m) of the element from the ring's centre; `curved`: see [`NearDefect::approach`].
     #[inline(always)]
-    pub fn approach(
+    pub fn approach<T: Scalar>(
         &self,
         cell: u32,
-        u: f64,
-        direction: f64,
-        frames: &Frames,
-        lever: Lever,
-    ) -> Result<Approach, ContactError> {
+        u: T,
+        direction: T,
+        frames: &Frames<T>,
+        distance: T,
+        curved: bool,
+    ) -> Result<Approach<T>, ContactError> {
         let Some(defect) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
-        let angle = defect.angle(direction - frames.of(self.frame).angle);
-        defect.surface.approach((cell - defect.first) as usize, u, angle, lever)
+        let against = direction - frames.of(self.frame).angle;
+        let angle = against.moved_to(defect.angle(against.value()));
+        defect.surface.approach((cell - defect.first) as usize, u, angle, distance, curved)
     }
 
     /// The defect that a cell belongs to.

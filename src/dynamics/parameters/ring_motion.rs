@@ -1,47 +1,47 @@
 //! How the rings of a model move: from the state where it has them, else as the host prescribes.
 
 use crate::dynamics::parameters::{
-    Cubic, Drive, FramedKinematics, Kinematics, Model, RingState, Stage, moved, prescribed_rate,
+    Cubic, Excitation, FramedKinematics, Kinematics, Model, RingState, Stage, moved, prescribed_rate,
 };
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
 impl Model {
     /// Cage and rings at `tau`.
-    pub fn kinematics(&self, drive: &Drive, tau: f64, state: &[f64]) -> FramedKinematics {
-        self.begin(drive);
-        let motion = self.kinematics_of(&Stage { drive, cage: &drive.cage_at(tau), state, ahead: None });
-        FramedKinematics { motion, frames: drive.frames_at(tau), films: self.films_at(drive, tau) }
+    pub fn kinematics(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> FramedKinematics {
+        self.begin(excitation);
+        let motion = self.kinematics_of(&Stage { excitation, cage: &excitation.cage_at(tau), state, ahead: None });
+        FramedKinematics { motion, frames: excitation.frames_at(tau), films: self.films_at(excitation, tau) }
     }
 
     /// As [`kinematics`](Self::kinematics), without the frames of defects and oil films.
     #[inline(always)]
     pub(in crate::dynamics) fn kinematics_of(&self, at: &Stage) -> Kinematics {
-        let Stage { drive, cage, state, ahead } = *at;
+        let Stage { excitation, cage, state, ahead } = *at;
         let (shaft, housing) = (self.shaft.motion, self.housing.motion);
         Kinematics {
             cage: *cage,
-            shaft: ring_state(self.layout.shaft, shaft, &drive.shaft, cage.tau, state, ahead),
-            housing: ring_state(self.layout.housing, housing, &drive.housing, cage.tau, state, ahead),
+            shaft: ring_state(self.layout.shaft, shaft, &excitation.shaft, cage.tau, state, ahead),
+            housing: ring_state(self.layout.housing, housing, &excitation.housing, cage.tau, state, ahead),
         }
     }
 
     /// Position and velocity of the inner ring, wherever they come from.
     #[inline(always)]
-    pub fn shaft_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.shaft, self.shaft.motion, &drive.shaft, tau, state, None)
+    pub fn shaft_state(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.shaft, self.shaft.motion, &excitation.shaft, tau, state, None)
     }
 
     /// Position and velocity of the outer ring, wherever they come from.
     #[inline(always)]
-    pub fn housing_state(&self, drive: &Drive, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.housing, self.housing.motion, &drive.housing, tau, state, None)
+    pub fn housing_state(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> RingState {
+        ring_state(self.layout.housing, self.housing.motion, &excitation.housing, tau, state, None)
     }
 
     /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at
     /// rest.
-    pub fn ring_rates(&self, drive: &Drive, tau: f64, derivative: &[f64]) -> [RingState; 2] {
-        [(self.layout.shaft, &drive.shaft), (self.layout.housing, &drive.housing)].map(
+    pub fn ring_rates(&self, excitation: &Excitation, tau: f64, derivative: &[f64]) -> [RingState; 2] {
+        [(self.layout.shaft, &excitation.shaft), (self.layout.housing, &excitation.housing)].map(
             |(index, prescribed)| match index {
                 Some(i) => RingState {
                     position: Vector::new(derivative[i], derivative[i + 1]),

@@ -109,8 +109,8 @@ impl SensorModes {
     /// Change per second (m/s³) of what sensor `k` measures, but for that of its body's acceleration.
     pub fn rate(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
         let by_mode = |(mode, z): (&Mode, [f64; 2])| {
-            let bend = mode.returning(z) - acceleration;
-            mode.shown([mode.returning([z[1], bend]), bend])
+            let second = mode.returning(z) - acceleration;
+            mode.shown([mode.returning([z[1], second]), second])
         };
         self.of(k, state).map(by_mode).sum()
     }
@@ -127,8 +127,8 @@ impl Mode {
     }
 
     /// What a sensor sees (m/s²) of z'' and z'.
-    fn shown(&self, [bend, rate]: [f64; 2]) -> f64 {
-        self.gain * bend + self.quadrature_gain * self.frequency * rate
+    fn shown(&self, [second, rate]: [f64; 2]) -> f64 {
+        self.gain * second + self.quadrature_gain * self.frequency * rate
     }
 
     /// Moves z and z' on to a `share` of a step of `length` (s), in pieces of a radian at most.
@@ -168,11 +168,11 @@ impl Mode {
 /// Acceleration over a step of the body whose displacement is at this index of a state.
 fn acceleration(ends: StepEnds, index: usize) -> Cubic {
     let StepEnds { states, derivatives, length } = ends;
-    let bends = derivatives.map(|rate| rate[index + 1]);
+    let seconds = derivatives.map(|rate| rate[index + 1]);
     Quintic::new(length, 0.0).second_derivative(
         states.map(|state| state[index]),
         derivatives.map(|rate| rate[index]),
-        bends,
+        seconds,
     )
 }
 

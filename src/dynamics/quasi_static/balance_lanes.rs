@@ -13,7 +13,7 @@
 //! A lane without an element, or with one that is looked for alone, has constants 0 and no force.
 
 use crate::contact::law::{DampedLaw, Elastic, PUSHING_LENGTH, Point};
-use crate::dynamics::contacts::{Distance, Forces, Record, Sums, dot, radial};
+use crate::dynamics::contacts::{Forces, InnerGap, Record, Sums, dot, radial};
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
 use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of};
 use crate::numerics::plane::Vector;
@@ -115,20 +115,12 @@ struct ElementLanes<S: Wide> {
     along: Lanes<S>,
 }
 
-/// The gap of the inner contact at some path.
-#[derive(Clone, Copy)]
-struct Gap<S: Wide> {
-    approach: Lanes<S>,
-    n: [Lanes<S>; 2],
-    distance: Lanes<S>,
-}
-
 /// Elements in balance.
 #[derive(Clone, Copy)]
 struct Balanced<S: Wide> {
     path: Lanes<S>,
     path_rate: Lanes<S>,
-    gap: Gap<S>,
+    gap: InnerGap<Lanes<S>>,
     /// Forces and stiffnesses of the inner and of the outer contact.
     forces: [Lanes<S>; 2],
     stiffness: [Lanes<S>; 2],
@@ -160,7 +152,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
         let speed = of(&block.pace) * number(now.cage.speed);
         let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
         let nominal = number(now.cage.speed);
-        let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.bend) * (nominal * nominal);
+        let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.pace_by_angle) * (nominal * nominal);
         ElementLanes {
             simd,
             e_r,
@@ -179,12 +171,11 @@ impl<'a, E: Elastic> Shared<'a, E> {
 
     /// The inner contact's gap at a path.
     #[inline(always)]
-    fn gap<S: Wide>(&self, at: &ElementLanes<S>, u: Lanes<S>) -> Gap<S> {
+    fn gap<S: Wide>(&self, at: &ElementLanes<S>, u: Lanes<S>) -> InnerGap<Lanes<S>> {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        let [p, t] = at.offset;
-        let q_r = number(self.model.outer_centre_radius) + u + p;
-        let Distance { longer, n } = Distance::of(at.simd, q_r, t, self.series);
-        Gap { approach: (number(-self.model.radial_clearance) - u - p - longer) * at.on, n, distance: q_r + longer }
+        let (rho, clearance) = (number(self.model.outer_centre_radius) + u, number(self.model.radial_clearance));
+        let gap = InnerGap::of(rho, u, at.offset, clearance, self.series);
+        InnerGap { approach: gap.approach * at.on, ..gap }
     }
 
     /// Force and tangent stiffness of a contact.
@@ -220,7 +211,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
                 let unknown = settled.if_less(step, number(f64::NAN), zero);
                 let stiffness = [k_i, k_o];
                 let forces = [(inner - along * change).or_zero() + unknown, (outer + k_o * change).or_zero() + unknown];
-                let gap = Gap { approach: gap.approach - n_r * change, ..gap };
+                let gap = InnerGap { approach: gap.approach - n_r * change, ..gap };
                 return Balanced { path: newton, path_rate: zero, gap, forces, stiffness };
             }
             low = zero.if_less(force, u, low);
@@ -249,7 +240,7 @@ impl<S: Wide> Balanced<S> {
     #[inline(always)]
     fn damped<E: Elastic>(self, shared: &Shared<E>, at: &ElementLanes<S>) -> Self {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        let Self { path, gap: Gap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
+        let Self { path, gap: InnerGap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
         let [k_i, k_o] = self.stiffness;
         let none = number(NO_STIFFNESS);
         let [drift, across] = at.drift;

@@ -26,10 +26,11 @@ use super::path_search::PathSearch;
 use super::tangent::RadialForce;
 use super::tangent::{Rings, stacked};
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{Bends, ElementChange, ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
-use crate::dynamics::parameters::{Frame, FramedKinematics, Model, PathMotion, SMOOTH};
-use crate::numerics::plane::{Vector, turned};
+use crate::dynamics::parameters::{FramedKinematics, Model, SMOOTH};
+use crate::numerics::number::Scalar;
+use crate::numerics::plane::Vector;
 
 /// Change of a path below which Newton's next step is exact to rounding (m): what is left is 0.25 (this)²/δ, with the
 /// lightest contact's δ of 1e-9 m below 1e-21 m.
@@ -38,46 +39,28 @@ const SETTLED: f64 = 1e-15;
 const FIRST_STRIDE: f64 = 1e-8;
 /// Most evaluations of the contacts: doubling from the first stride to a metre, and halving back.
 const MOST_EVALUATIONS: u64 = 300;
-/// Evaluations of a contact in balance: one each without and with damping, and four for its second derivatives.
-const EVALUATIONS_AT_BALANCE: u64 = 6;
+/// Evaluations of a contact in balance: one each without and with damping.
+const EVALUATIONS_AT_BALANCE: u64 = 2;
 
-/// An element in balance.
+/// An element in balance. Forces are in parts along e_r and e_t, of the outer contact inwards.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct InBalance {
+pub(in crate::dynamics) struct InBalance<T: Scalar = f64> {
     /// Its contacts without damping.
-    pub(in crate::dynamics) elastic: Linearized,
+    pub(in crate::dynamics) elastic: Linearized<T>,
     /// Its contacts damped at the rates of the balance.
-    pub(super) damped: Linearized,
+    pub(super) damped: Linearized<T>,
     /// u (m)
-    pub(in crate::dynamics) path: f64,
+    pub(in crate::dynamics) path: T,
     /// u' (m/s)
-    pub(in crate::dynamics) path_rate: f64,
+    pub(in crate::dynamics) path_rate: T,
     /// Force of the inner contact on the element (N).
-    pub(in crate::dynamics) inner: Vector,
-    /// Force of the outer contact on the element, inwards and counter-clockwise (N).
-    pub(in crate::dynamics) outer: Vector,
+    pub(in crate::dynamics) inner: Vector<T>,
+    /// Force of the outer contact on the element (N).
+    pub(in crate::dynamics) outer: Vector<T>,
     /// Whether the inner and the outer contact are near a defect.
     near: [bool; 2],
     /// Evaluations of the contacts that it took.
     pub(in crate::dynamics) evaluations: u64,
-}
-
-/// A torque on a body with a defect.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct BodyTorque {
-    /// The frame in which the body turns.
-    pub(in crate::dynamics) frame: Frame,
-    /// About its own centre (N m).
-    pub(in crate::dynamics) torque: f64,
-}
-
-/// What an element in balance exerts on the rest of the bearing.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Exerted {
-    /// Force on the inner and on the outer ring (N).
-    pub(in crate::dynamics) rings: [Vector; 2],
-    /// Torques on the bodies with the defects under its inner and its outer contact.
-    pub(in crate::dynamics) torques: [BodyTorque; 2],
 }
 
 /// A path that was searched for.
@@ -85,54 +68,60 @@ pub(in crate::dynamics) struct Exerted {
 pub(in crate::dynamics) struct FoundPath {
     /// (m)
     pub(in crate::dynamics) path: f64,
+    /// Derivative of the radial force by the path there (N/m); 0 where nothing touches.
+    slope: f64,
     /// How often contacts were evaluated.
     evaluations: u64,
 }
 
-impl InBalance {
-    /// What it exerts.
-    pub(in crate::dynamics) fn exerted(&self) -> Exerted {
-        let Linearized { e_r, e_t, n, distance, rho, frames, .. } = self.elastic;
-        // The force on a smooth raceway goes through the ring's centre.
-        let inner = if self.near[0] { -self.inner.dot(&turned(n)) * distance } else { 0.0 };
-        let outer = if self.near[1] { -self.outer.y * rho } else { 0.0 };
-        Exerted {
-            rings: [-self.inner, e_r * self.outer.x - e_t * self.outer.y],
-            torques: [BodyTorque { frame: frames[0], torque: inner }, BodyTorque { frame: frames[1], torque: outer }],
-        }
+impl<T: Scalar> InBalance<T> {
+    /// Its contacts' forces, damping included.
+    pub(in crate::dynamics) fn forces(&self) -> ElementForces<T> {
+        let Linearized { at, rho, n, distance, inner, outer } = self.elastic;
+        let frames = [inner.frame, outer.frame];
+        let frames = [0, 1].map(|side| self.near[side].then_some(frames[side]));
+        let at = at.on_path(self.path, self.path_rate);
+        ElementForces { at, rho, inner: self.inner, outer: self.outer, n, distance, frames }
     }
+}
 
-    /// Whether it is one: a search that found none, or a contact without an answer, leaves numbers that are none.
+impl InBalance {
+    /// Whether it is one: a search that found none, or a contact without an answer, leaves NaN.
     pub(in crate::dynamics) fn is_found(&self) -> bool {
         (self.inner.x + self.inner.y + self.outer.x + self.outer.y + self.path_rate).is_finite()
     }
 }
 
 impl Model {
-    /// Element `j` in balance, looked for from path `guess` (m) on. Where there is no balance, or a contact has no
-    /// answer, forces are no numbers.
-    pub(in crate::dynamics) fn in_balance(
+    /// The element `at` in balance, looked for from path `guess` (m) on; where it is on its path does not matter. Where
+    /// there is no balance, or a contact has no answer, forces are NaN.
+    pub(in crate::dynamics) fn in_balance<T: Scalar>(
         &self,
-        j: usize,
         cells: [[u32; 2]; 2],
         guess: f64,
-        now: &FramedKinematics,
-    ) -> InBalance {
-        let FoundPath { path, evaluations } = self.balanced_path(j, cells, guess, now);
-        let elastic = self.linearized_at(j, cells, PathMotion::at_rest(path), now, Bends::Wanted);
+        at: &ElementMotion<T>,
+    ) -> InBalance<T> {
+        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values());
+        let still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)));
+        let path = if slope == 0.0 {
+            T::from(path)
+        } else {
+            T::root_of(path, slope, |path| self.radial_balance(&still(path)).force)
+        };
+        let elastic = still(path);
         let RadialForce { force, slope } = self.radial_balance(&elastic);
-        let path_rate = self.balance_rate(j, &elastic, now);
+        let path_rate = self.balance_rate(&elastic);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped =
-            self.linearized_with(contacts, j, cells, PathMotion { path, rate: path_rate }, now, Bends::LeftOut);
+        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate));
         let ElementChange { inner, outer } = damping(&elastic, &damped);
-        let known = if force.abs() <= self.no_force_at(&elastic, slope) { 1.0 } else { f64::NAN };
+        let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());
+        let known = T::from(if is_known { 1.0 } else { f64::NAN });
         InBalance {
             path,
             path_rate,
-            inner: (elastic.inner + inner) * known,
-            outer: (elastic.outer + outer) * known,
+            inner: (elastic.inner.force + inner) * known,
+            outer: (elastic.outer.force + outer) * known,
             elastic,
             damped,
             near: cells.map(|cells| cells != [SMOOTH; 2]),
@@ -141,46 +130,44 @@ impl Model {
     }
 
     /// Path of the balance, looked for from `guess` (m) on.
-    pub(in crate::dynamics) fn balanced_path(
-        &self,
-        j: usize,
-        cells: [[u32; 2]; 2],
-        guess: f64,
-        now: &FramedKinematics,
-    ) -> FoundPath {
+    pub(in crate::dynamics) fn balanced_path(&self, cells: [[u32; 2]; 2], guess: f64, at: &ElementMotion) -> FoundPath {
         let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
+        let mut slope = 0.0;
         for evaluations in 1..MOST_EVALUATIONS {
-            let element = self.linearized_at(j, cells, PathMotion::at_rest(u), now, Bends::LeftOut);
-            let RadialForce { force, slope } = self.radial_push(&element);
-            if force == 0.0 && slope == 0.0 {
+            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched()));
+            slope = push.slope;
+            if push.force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
-                return FoundPath { path: self.touching_path(j, cells[1], now), evaluations };
+                let path = self.touching_path(at.element, cells[1], at.angle, &at.frames);
+                return FoundPath { path, slope, evaluations };
             }
-            let newton = u - force / slope;
+            let newton = u - push.force / slope;
             if (newton - u).abs() <= SETTLED {
-                return FoundPath { path: newton, evaluations };
+                return FoundPath { path: newton, slope, evaluations };
             }
-            let Some(next) = search.next(u, force, newton) else { return FoundPath { path: u, evaluations } };
+            let Some(next) = search.next(u, push.force, newton) else {
+                return FoundPath { path: u, slope, evaluations };
+            };
             u = next;
         }
-        FoundPath { path: u, evaluations: MOST_EVALUATIONS }
+        FoundPath { path: u, slope, evaluations: MOST_EVALUATIONS }
     }
 
     /// u' (m/s) of an element that stays in balance as cage, rings and frames move on.
-    fn balance_rate(&self, j: usize, elastic: &Linearized, now: &FramedKinematics) -> f64 {
-        let Linearized { e_t, omega, .. } = *elastic;
-        let [_, alpha] = self.element_speed(j, &now.cage);
+    fn balance_rate<T: Scalar>(&self, elastic: &Linearized<T>) -> T {
+        let ElementMotion { e_t, omega, alpha, drift, frames, .. } = elastic.at;
         let moved = elastic.change(&ElementVariation {
-            offset: now.drift(),
-            cage_angle: omega,
-            frames: now.frames.0.map(|turn| [turn.speed, 0.0]),
+            offset: drift,
+            angle: omega,
+            frames: frames.0.map(|turn| [turn.speed, T::from(0.0)]),
             ..ElementVariation::default()
         });
-        let body = omega * (self.gravity.dot(&e_t) + 2.0 * self.outer_centre_radius * alpha);
-        let push = moved.radial(elastic) + omega * elastic.inner.dot(&e_t) + self.element_mass * body;
+        let gravity = self.gravity.map(T::from).dot(&e_t);
+        let body = omega * (gravity + alpha * T::Plain::from(2.0 * self.outer_centre_radius));
+        let push = moved.radial() + omega * elastic.inner.force.y + body * T::Plain::from(self.element_mass);
         let slope = self.radial_balance(elastic).slope;
-        if slope < 0.0 { -push / slope } else { 0.0 }
+        if slope.value() < 0.0 { -push / slope } else { T::from(0.0) }
     }
 
     /// Derivative of an element's forces on the rings by the outer ring's velocity less the inner's along one axis, as
@@ -188,18 +175,17 @@ impl Model {
     pub(in crate::dynamics) fn damped_by_drift(&self, found: &InBalance, axis: usize) -> Rings {
         let InBalance { elastic, damped, .. } = found;
         let along = elastic.change(&ElementVariation::of_path());
-        let stiffness = -along.radial(elastic);
+        let stiffness = -along.radial();
         if stiffness <= 0.0 {
             return Rings::zeros();
         }
         let mut drift = Vector::zeros();
         drift[axis] = 1.0;
         let pushed = elastic.change(&ElementVariation { offset: drift, ..ElementVariation::default() });
-        let path_rate = pushed.radial(elastic) / stiffness;
+        let path_rate = pushed.radial() / stiffness;
         let d = damped.change(&ElementVariation { drift, path_rate, ..ElementVariation::default() });
-        let lag = d.radial(elastic) / stiffness;
-        let change = ElementChange { inner: d.inner + along.inner * lag, outer: d.outer + along.outer * lag };
-        stacked(-change.inner, change.on_housing(elastic))
+        let lag = d.radial() / stiffness;
+        stacked(elastic.at.on_shaft(d.inner + along.inner * lag), elastic.at.on_housing(d.outer + along.outer * lag))
     }
 
     /// The contact of element `j` that has no answer.
@@ -219,8 +205,7 @@ impl Model {
             .into_iter()
             .filter(|(_, at)| at.cells != [SMOOTH; 2])
             .find_map(|(side, at)| {
-                let (near, _) = self.near_defect(side, &beyond(at), &now.frames);
-                near.err().map(|cause| {
+                self.near(side, &beyond(at), &now.frames).err().map(|cause| {
                     let angle = self.angle_from_defect(side, &at, &now.frames);
                     UnsolvedContact { element: j, angle, offset: now.offset().into(), cause }
                 })
@@ -229,24 +214,25 @@ impl Model {
 }
 
 /// What damping changes of the forces on an element, its balance kept.
-fn damping(elastic: &Linearized, damped: &Linearized) -> ElementChange {
+fn damping<T: Scalar>(elastic: &Linearized<T>, damped: &Linearized<T>) -> ElementChange<T> {
     let along = elastic.change(&ElementVariation::of_path());
-    let stiffness = -along.radial(elastic);
-    let (inner, outer) = (damped.inner - elastic.inner, damped.outer - elastic.outer);
-    if stiffness <= 0.0 {
-        return ElementChange::default();
+    let stiffness = -along.radial();
+    let [inner, outer] = [damped.inner.force - elastic.inner.force, damped.outer.force - elastic.outer.force];
+    if stiffness.value() <= 0.0 {
+        return ElementChange { inner: Vector::zeros(), outer: Vector::zeros() };
     }
-    let lag = (inner.dot(&elastic.e_r) - outer.x) / stiffness;
+    let lag = (inner.x - outer.x) / stiffness;
     let (inner, outer) = (inner + along.inner * lag, outer + along.outer * lag);
     // No contact pulls.
-    let share = share_that_pushes(&elastic.inner, &inner).min(share_that_pushes(&elastic.outer, &outer));
+    let share =
+        share_that_pushes(&elastic.inner.force, &inner).at_most(share_that_pushes(&elastic.outer.force, &outer));
     ElementChange { inner: inner * share, outer: outer * share }
 }
 
 /// Largest share of a change that leaves a force pushing, 1 at most.
-fn share_that_pushes(force: &Vector, change: &Vector) -> f64 {
-    let (along, square) = (force.dot(change), force.norm_squared());
-    if along < -square { square / -along } else { 1.0 }
+fn share_that_pushes<T: Scalar>(force: &Vector<T>, change: &Vector<T>) -> T {
+    let (along, square) = (force.dot(change), force.dot(force));
+    if along.value() < -square.value() { -square / along } else { T::from(1.0) }
 }
 
 #[cfg(test)]

@@ -10,6 +10,6 @@ pub use tangent::{RingJacobian, Rings};
 pub(crate) use tangent::stacked;
 
 pub(in crate::dynamics) use balance_lanes::SmoothElements;
-pub(in crate::dynamics) use element_balance::{BodyTorque, InBalance};
+pub(in crate::dynamics) use element_balance::InBalance;
 pub(in crate::dynamics) use path_search::PathSearch;
 pub(in crate::dynamics) use tangent::RadialForce;

@@ -59,18 +59,18 @@ impl PathSearch {
 
 impl Model {
     /// As [`Model::radial_balance`], where contacts need not have an answer: an inner contact too deep for its law
-    /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: no number is not above 0.
+    /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: NaN is not above 0.
     pub(in crate::dynamics) fn radial_push(&self, element: &Linearized) -> RadialForce {
         let RadialForce { force, slope } = self.radial_balance(element);
-        let too_deep = element.inner.x.is_nan() && !element.outer.x.is_nan();
+        let too_deep = element.inner.force.x.is_nan() && !element.outer.force.x.is_nan();
         RadialForce { force: if too_deep { f64::INFINITY } else { force }, slope }
     }
 
     /// Radial force (N) on an element that counts as none where its path resolves its forces.
     pub(in crate::dynamics) fn no_force(&self, element: &Linearized) -> f64 {
-        let (radius, _) = self.centrifugal_radius(element.rho);
-        let body = self.element_mass * (self.gravity.norm() + radius * element.omega * element.omega);
-        RESIDUAL * (body + element.inner.norm() + element.outer.x.abs())
+        let ([radius, _], omega) = (self.centrifugal_radius(element.rho), element.at.omega);
+        let body = self.element_mass * (self.gravity.norm() + radius * omega * omega);
+        RESIDUAL * (body + element.inner.force.norm() + element.outer.force.x.abs())
     }
 
     /// Radial force (N) that counts as none on an element whose force changes by `slope` (N/m) with its path.

@@ -6,45 +6,42 @@
 //!
 //! An element that nothing touches does not answer.
 
-use crate::dynamics::contacts::{Bends, ElementVariation, Linearized};
-use crate::dynamics::parameters::SMOOTH;
+use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) (N/m).
-pub type RingJacobian = nalgebra::Matrix4<f64>;
+pub type RingJacobian<T = f64> = nalgebra::Matrix4<T>;
 /// x and y of the inner ring, then of the outer.
-pub type Rings = nalgebra::Vector4<f64>;
+pub type Rings<T = f64> = nalgebra::Vector4<T>;
 
 /// Change of one element's path (m) and of the forces on the rings (N), its balance kept.
-pub(in crate::dynamics) struct Balanced {
-    pub(in crate::dynamics) path: f64,
-    pub(in crate::dynamics) rings: Rings,
+pub(in crate::dynamics) struct Balanced<T: Scalar> {
+    pub(in crate::dynamics) path: T,
+    pub(in crate::dynamics) rings: Rings<T>,
 }
 
 /// Radial force R on an element, inertia of the turning cage and gravity included.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct RadialForce {
+pub(in crate::dynamics) struct RadialForce<T = f64> {
     /// R (N).
-    pub(in crate::dynamics) force: f64,
+    pub(in crate::dynamics) force: T,
     /// Its derivative by u (N/m).
-    pub(in crate::dynamics) slope: f64,
+    pub(in crate::dynamics) slope: T,
 }
 
 impl Model {
     /// Radial force on an element, 0 in balance.
     #[inline]
-    pub(in crate::dynamics) fn radial_balance(&self, element: &Linearized) -> RadialForce {
-        let Linearized { e_r, rho, omega, .. } = *element;
-        let (radius, grows) = self.centrifugal_radius(rho);
-        let body = self.gravity.dot(&e_r) + radius * omega * omega;
-        let contacts = element.inner.dot(&e_r) - element.outer.x;
-        let along = element.change(&ElementVariation::of_path()).radial(element);
-        RadialForce {
-            force: contacts + self.element_mass * body,
-            slope: along + self.element_mass * omega * omega * grows,
-        }
+    pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, element: &Linearized<T>) -> RadialForce<T> {
+        let (mass, square) = (T::Plain::from(self.element_mass), element.at.omega * element.at.omega);
+        let [radius, grows] = self.centrifugal_radius(element.rho);
+        let body = self.gravity.map(T::from).dot(&element.at.e_r) + radius * square;
+        let contacts = element.inner.force.x - element.outer.force.x;
+        let along = element.change(&ElementVariation::of_path()).radial();
+        RadialForce { force: contacts + body * mass, slope: along + square * grows * mass }
     }
 
     /// Radius (m) at which an element at distance `rho` (m) feels its centrifugal force, and its derivative by the
@@ -54,27 +51,29 @@ impl Model {
     /// a spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it
     /// about cancels its weight.
     #[inline(always)]
-    pub(in crate::dynamics) fn centrifugal_radius(&self, rho: f64) -> (f64, f64) {
-        if self.elements_in_balance() { (self.outer_centre_radius, 0.0) } else { (rho, 1.0) }
+    pub(in crate::dynamics) fn centrifugal_radius<T: Scalar>(&self, rho: T) -> [T; 2] {
+        if self.elements_in_balance() { [self.outer_centre_radius, 0.0].map(T::from) } else { [rho, T::from(1.0)] }
     }
 
     /// What a change does to an element that keeps its balance, and through it to the rings.
-    pub(in crate::dynamics) fn balanced(&self, element: &Linearized, by: &ElementVariation) -> Balanced {
-        let Linearized { rho, omega, .. } = *element;
+    pub(in crate::dynamics) fn balanced<T: Scalar>(
+        &self,
+        element: &Linearized<T>,
+        by: &ElementVariation<T>,
+    ) -> Balanced<T> {
+        let (mass, omega) = (T::Plain::from(self.element_mass), element.at.omega);
         let along = element.change(&ElementVariation::of_path());
         let direct = element.change(by);
-        let (radius, grows) = self.centrifugal_radius(rho);
-        let stiffness = along.radial(element) + self.element_mass * omega * omega * grows;
-        let push = direct.radial(element) + 2.0 * self.element_mass * radius * omega * by.cage_speed;
-        let path = if stiffness == 0.0 { 0.0 } else { -push / stiffness };
-        let (on_shaft, on_housing) =
-            (-(direct.inner + along.inner * path), direct.on_housing(element) + along.on_housing(element) * path);
-        let rings = stacked(on_shaft, on_housing);
-        Balanced { path, rings }
+        let [radius, grows] = self.centrifugal_radius(element.rho);
+        let stiffness = along.radial() + omega * omega * grows * mass;
+        let push = direct.radial() + (radius + radius) * omega * by.speed * mass;
+        let path = if stiffness.value() == 0.0 { T::from(0.0) } else { -push / stiffness };
+        let (inner, outer) = (direct.inner + along.inner * path, direct.outer + along.outer * path);
+        Balanced { path, rings: stacked(element.at.on_shaft(inner), element.at.on_housing(outer)) }
     }
 
     /// Adds an element in balance to the Jacobian of the rings' forces.
-    pub(in crate::dynamics) fn add_balanced(&self, element: &Linearized, jacobian: &mut RingJacobian) {
+    pub(in crate::dynamics) fn add_balanced<T: Scalar>(&self, element: &Linearized<T>, jacobian: &mut RingJacobian<T>) {
         for axis in 0..2 {
             let rings = self.balanced(element, &ElementVariation::of_offset(axis)).rings;
             jacobian.column_mut(axis).zip_apply(&rings, |sum, force| *sum -= force);
@@ -91,21 +90,19 @@ impl Model {
         jacobian
     }
 
-    /// An element that stands `still`, as all else does, with the exact derivatives of its forces by positions: what a
-    /// ring's motion turns at a defect inside is the force as well.
+    /// An element that stands where it is, all else being as in `now`.
     pub(in crate::dynamics) fn at_rest(
         &self,
         j: usize,
         cells: [[u32; 2]; 2],
         u: f64,
-        still: &FramedKinematics,
+        now: &FramedKinematics,
     ) -> Linearized {
-        let bends = if cells[0] == [SMOOTH; 2] { Bends::LeftOut } else { Bends::Wanted };
-        self.linearized_at(j, cells, PathMotion::at_rest(u), still, bends)
+        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now))
     }
 
     /// As [`ring_jacobian`](Self::ring_jacobian) with the dampers' part at the velocities of `now`, each u' being 0,
-    /// and without second derivatives near defects: for searches.
+    /// and without curvatures along defects: for searches.
     pub(in crate::dynamics) fn ring_jacobian_at(
         &self,
         u: &[f64],
@@ -114,9 +111,8 @@ impl Model {
     ) -> RingJacobian {
         let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
-            let along = PathMotion::at_rest(u[j]);
-            let element = self.linearized_at(j, self.cells_of(cells, j), along, now, Bends::LeftOut);
-            self.add_balanced(&element, &mut jacobian);
+            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now).searched();
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at), &mut jacobian);
         }
         jacobian
     }
@@ -163,6 +159,6 @@ impl Model {
 }
 
 /// Vectors of the inner and the outer ring as one.
-pub(crate) fn stacked(shaft: Vector, housing: Vector) -> Rings {
+pub(crate) fn stacked<T: Scalar>(shaft: Vector<T>, housing: Vector<T>) -> Rings<T> {
     Rings::new(shaft.x, shaft.y, housing.x, housing.y)
 }

@@ -13,7 +13,7 @@ const START: f64 = (10.0 / 9.0 * 1023.0 - 0.053) * 1_099_511_627_776.0;
 /// The series of (1 − r)^(−1/9) less its first term, over r.
 const SERIES: [f64; 4] = [1.0 / 9.0, 5.0 / 81.0, 95.0 / 2187.0, 665.0 / 19683.0];
 
-/// x^(1/9) of a normal positive number, to 3e-16 of itself; 0 of 0, no number of what is none. Subnormal numbers give
+/// x^(1/9) of a normal positive number, to 3e-16 of itself; 0 of 0, NaN of NaN. Subnormal numbers give
 /// too small a root.
 #[inline(always)]
 pub fn ninth_root(x: f64) -> f64 {
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_has_the_root_nothing_and_what_is_no_number_stays_so() {
+    fn nothing_has_the_root_nothing_and_nan_stays_so() {
         assert_eq!(ninth_root(0.0), 0.0);
         assert!(ninth_root(f64::NAN).is_nan() && ninth_root(-f64::NAN).is_nan());
         assert!(ninth_root(f64::MIN_POSITIVE / 1e10).is_finite());

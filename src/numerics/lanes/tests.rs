@@ -46,7 +46,7 @@ fn every_width_gives_the_same_bits() {
 }
 
 #[test]
-fn what_is_not_a_number_stays_so() {
+fn nan_stays_nan() {
     for count in [8, 24] {
         let (mut x, mut wide, mut narrow) = (vec![1.0; count], vec![0.0; count], vec![0.0; count]);
         x[2] = f64::NAN;

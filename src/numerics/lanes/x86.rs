@@ -1,4 +1,4 @@
-//! AVX2 and AVX-512. The machine's own maximum and minimum give their second operand where either is no number.
+//! AVX2 and AVX-512. The machine's own maximum and minimum give their second operand where either is NaN.
 
 use super::{Kernel, On, QUAD, WIDEST, Wide};
 use pulp::x86::{V3, V4};

@@ -16,33 +16,33 @@ impl Quintic {
 
     /// Value and rate from the values, rates and second derivatives at both ends.
     #[inline(always)]
-    pub(crate) fn at(&self, values: [f64; 2], rates: [f64; 2], bends: [f64; 2]) -> (f64, f64) {
+    pub(crate) fn at(&self, values: [f64; 2], rates: [f64; 2], seconds: [f64; 2]) -> (f64, f64) {
         let s = self.share;
-        let [x, rate, bend, third, fourth, fifth] = self.coefficients(values, rates, bends);
-        let value = x + s * (rate + s * (0.5 * bend + s * (third + s * (fourth + s * fifth))));
-        let slope = rate + s * (bend + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)));
+        let [x, rate, second, third, fourth, fifth] = self.coefficients(values, rates, seconds);
+        let value = x + s * (rate + s * (0.5 * second + s * (third + s * (fourth + s * fifth))));
+        let slope = rate + s * (second + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)));
         (value, slope / self.h)
     }
 
     /// Second derivative over the whole step, as a cubic in the share of it.
-    pub(crate) fn second_derivative(&self, values: [f64; 2], rates: [f64; 2], bends: [f64; 2]) -> [f64; 4] {
-        let [_, _, bend, third, fourth, fifth] = self.coefficients(values, rates, bends);
-        [bend, 6.0 * third, 12.0 * fourth, 20.0 * fifth].map(|coefficient| coefficient / (self.h * self.h))
+    pub(crate) fn second_derivative(&self, values: [f64; 2], rates: [f64; 2], seconds: [f64; 2]) -> [f64; 4] {
+        let [_, _, second, third, fourth, fifth] = self.coefficients(values, rates, seconds);
+        [second, 6.0 * third, 12.0 * fourth, 20.0 * fifth].map(|coefficient| coefficient / (self.h * self.h))
     }
 
     /// Coefficients of the polynomial in the share of the step, that of the square doubled.
     #[inline(always)]
-    fn coefficients(&self, [x, end]: [f64; 2], rates: [f64; 2], bends: [f64; 2]) -> [f64; 6] {
+    fn coefficients(&self, [x, end]: [f64; 2], rates: [f64; 2], seconds: [f64; 2]) -> [f64; 6] {
         let h = self.h;
         let [rate, end_rate] = rates.map(|rate| h * rate);
-        let [bend, end_bend] = bends.map(|bend| h * h * bend);
-        let difference = end - x - rate - 0.5 * bend;
-        let turn = end_rate - rate - bend;
-        let change = end_bend - bend;
+        let [second, end_second] = seconds.map(|second| h * h * second);
+        let difference = end - x - rate - 0.5 * second;
+        let turn = end_rate - rate - second;
+        let change = end_second - second;
         [
             x,
             rate,
-            bend,
+            second,
             10.0 * difference - 4.0 * turn + 0.5 * change,
             -15.0 * difference + 7.0 * turn - change,
             6.0 * difference - 3.0 * turn + 0.5 * change,
@@ -58,11 +58,11 @@ mod tests {
     fn a_polynomial_of_degree_five_comes_out_as_it_is() {
         let x = |t: f64| 1.0 + t * (2.0 + t * (-3.0 + t * (0.5 + t * (4.0 - t))));
         let rate = |t: f64| 2.0 + t * (-6.0 + t * (1.5 + t * (16.0 - 5.0 * t)));
-        let bend = |t: f64| -6.0 + t * (3.0 + t * (48.0 - 20.0 * t));
+        let second = |t: f64| -6.0 + t * (3.0 + t * (48.0 - 20.0 * t));
         let h = 0.7;
         for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
             let ends = [0.0, h];
-            let (value, slope) = Quintic::new(h, share).at(ends.map(x), ends.map(rate), ends.map(bend));
+            let (value, slope) = Quintic::new(h, share).at(ends.map(x), ends.map(rate), ends.map(second));
             assert!((value - x(share * h)).abs() < 1e-14 && (slope - rate(share * h)).abs() < 1e-13, "{share}");
         }
     }

@@ -17,7 +17,7 @@ pub struct Advance {
     /// The next knot to land on.
     pub(super) knot: Option<Knot>,
     /// Knots passed without time between them.
-    pub(super) at_once: usize,
+    pub(super) simultaneous: usize,
     /// Integration steps before the communication point.
     pub(super) first_count: u64,
 }
@@ -25,7 +25,7 @@ pub struct Advance {
 impl Advance {
     /// At the communication point, with `end` (s) to come, after so many integration steps.
     pub(in crate::simulation) fn new(end: f64, knot: Option<Knot>, first_count: u64) -> Self {
-        Self { end, tau: 0.0, impulse: [0.0; 4], before: 0.0, knot, at_once: 0, first_count }
+        Self { end, tau: 0.0, impulse: [0.0; 4], before: 0.0, knot, simultaneous: 0, first_count }
     }
 
     /// Whether it has come to its end.
@@ -39,7 +39,7 @@ impl Advance {
     }
 
     /// Ends `elapsed` (s) after that point if it would not end before, but no earlier than where it is.
-    pub(in crate::simulation) fn bring_forward(&mut self, elapsed: f64) {
+    pub(in crate::simulation) fn shorten_to(&mut self, elapsed: f64) {
         self.end = self.end.min((elapsed - self.before).max(self.tau));
     }
 

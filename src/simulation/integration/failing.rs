@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::contacts::UnsolvedContact;
 use crate::dynamics::parameters::{Layout, Model};
-use crate::simulation::integration::methods::{Pair, explicit, rodas};
+use crate::simulation::integration::methods::{ExplicitMethod, explicit, rodas};
 use crate::simulation::step_error::{SMALLEST_STEP, StepError};
 
 /// Whether a step shorter than the one of length `h` that failed is still worth trying.
@@ -36,17 +36,17 @@ pub(super) fn check_step(
 }
 
 /// What changes fastest where no step of length `h` has a finite end: at its start, or in Euler's step on, where
-/// all rates are finite there too. Behind that each number that is none makes others so, and which was the
+/// all rates are finite there too. Behind that each NaN makes others NaN, and which was the
 /// first cannot be told.
 fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64, progress: &Progress) -> StepError {
-    let (Problem { model, drive }, Span { from: since, length: h }) = (problem, span);
-    let Workspace { room, forces, dense, scratch, weights, .. } = workspace;
-    let rates = &mut room.first;
-    model.derivative(drive, since, &progress.cells, &progress.state, rates, forces);
+    let (Problem { model, excitation }, Span { from: since, length: h }) = (problem, span);
+    let Workspace { buffers, forces, dense, scratch, weights, .. } = workspace;
+    let rates = &mut buffers.first;
+    model.derivative(excitation, since, &progress.cells, &progress.state, rates, forces);
     for (i, value) in dense.iter_mut().enumerate() {
         *value = progress.state[i] + h * rates[i];
     }
-    model.derivative(drive, since + h, &progress.cells, dense, scratch, forces);
+    model.derivative(excitation, since + h, &progress.cells, dense, scratch, forces);
     let finite = |i: usize| scratch[i].is_finite();
     let rates: &[f64] = if (0..scratch.len()).all(finite) { scratch } else { rates };
     let fastest = first_largest(&model.layout, |i| weights[i] * rates[i]);
@@ -56,15 +56,15 @@ fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64,
 
 /// Name of the state with the largest error in the step tried last, whose length was `h`; tried by the implicit method
 /// or, explicitly, by this pair.
-pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, implicit: bool, pair: Pair) -> String {
+pub(super) fn worst(workspace: &Workspace, model: &Model, h: f64, implicit: bool, pair: ExplicitMethod) -> String {
     let error = |i: usize| {
-        let room = &workspace.room;
-        if implicit { rodas::error(room, i) } else { explicit::error(room, pair.error_parts(), i, h) }
+        let buffers = &workspace.buffers;
+        if implicit { rodas::error(buffers, i) } else { explicit::error(buffers, pair.error_parts(), i, h) }
     };
     model.layout.name(first_largest(&model.layout, |i| workspace.weights[i] * error(i)))
 }
 
-/// The state at which `size` is the largest; what is no number is larger than any.
+/// The state at which `size` is the largest; NaN is larger than any.
 fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
     let larger = |i: usize, than: usize| {
         let (one, other) = (size(i).abs(), size(than).abs());
@@ -74,11 +74,11 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
     states.fold(0, |largest, i| if larger(i, largest) { i } else { largest })
 }
 
-/// Beyond an element's radius the rings are beside each other, and a contact that is not a number would push nothing.
+/// Beyond an element's radius the rings are beside each other, and a contact that is NaN would push nothing.
 pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
-    let Problem { model, drive } = problem;
-    let shaft = model.shaft_state(drive, tau, &progress.state).position;
-    let housing = model.housing_state(drive, tau, &progress.state).position;
+    let Problem { model, excitation } = problem;
+    let shaft = model.shaft_state(excitation, tau, &progress.state).position;
+    let housing = model.housing_state(excitation, tau, &progress.state).position;
     let (apart, limit) = (housing - shaft, model.element_radius);
     if apart.norm_squared() <= limit * limit {
         return Ok(());

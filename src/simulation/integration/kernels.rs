@@ -5,10 +5,10 @@ use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::motion::Known;
-use crate::dynamics::parameters::{CageState, Drive, Model, Stage};
+use crate::dynamics::parameters::{CageState, Excitation, Model, Stage};
 use crate::numerics::lanes::{Kernel, Wide, dispatch};
 use crate::simulation::integration::methods::{
-    Arrow, LAST, Pair, RightHandSide, Room, dormand_prince, largest_error, rodas,
+    Arrow, ExplicitMethod, LAST, RightHandSide, StageBuffers, dormand_prince, largest_error, rodas,
 };
 
 /// Tries one step with the method that is chosen, and leaves what error control asks of it.
@@ -44,8 +44,8 @@ impl Kernel for Trial<'_> {
         } else {
             explicit(simd, workspace, problem, span, progress);
         }
-        let Workspace { room, forces, .. } = &mut *workspace;
-        forces.settle(problem.model, &mut room.end);
+        let Workspace { buffers, forces, .. } = &mut *workspace;
+        forces.settle(problem.model, &mut buffers.end);
         workspace.last_force = workspace.forces.rings;
         workspace.largest_approach = workspace.forces.largest_approach_on(simd);
         workspace.changed = workspace.forces.pushing_differs_on(simd, &progress.pushing);
@@ -55,8 +55,12 @@ impl Kernel for Trial<'_> {
 #[inline(always)]
 fn explicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
     match workspace.pair {
-        Pair::DormandPrince => explicit_step(simd, Pair::DormandPrince, workspace, problem, span, progress),
-        Pair::PhaseFitted => explicit_step(simd, Pair::PhaseFitted, workspace, problem, span, progress),
+        ExplicitMethod::DormandPrince => {
+            explicit_step(simd, ExplicitMethod::DormandPrince, workspace, problem, span, progress)
+        }
+        ExplicitMethod::PhaseFitted => {
+            explicit_step(simd, ExplicitMethod::PhaseFitted, workspace, problem, span, progress)
+        }
     }
 }
 
@@ -64,32 +68,32 @@ fn explicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span:
 #[inline(always)]
 fn explicit_step<S: Wide>(
     simd: S,
-    pair: Pair,
+    pair: ExplicitMethod,
     workspace: &mut Workspace,
     problem: Problem,
     span: Span,
     progress: &Progress,
 ) {
-    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
+    let (Problem { model, excitation }, Span { from, length: h }) = (problem, span);
     let weights = pair.weights();
     let sum = workspace.first_force.map(|force| weights[0] * force);
-    let cages = drive.cage_after(from, pair.nodes().map(|node| node * h));
-    let mut stages = Stages { model, drive, cages, weights, forces: &mut workspace.forces, sum };
-    pair.try_step(simd, &mut workspace.room, &progress.state, h, &mut stages);
+    let cages = excitation.cage_after(from, pair.nodes().map(|node| node * h));
+    let mut stages = Stages { model, excitation, cages, weights, forces: &mut workspace.forces, sum };
+    pair.try_step(simd, &mut workspace.buffers, &progress.state, h, &mut stages);
     workspace.weighted_force = stages.sum;
-    workspace.largest_error = largest_error(simd, &workspace.room, pair.error_parts(), h, &workspace.weights);
+    workspace.largest_error = largest_error(simd, &workspace.buffers, pair.error_parts(), h, &workspace.weights);
 }
 
 #[inline(always)]
 fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
-    let (Problem { model, drive }, Span { from, length: h }) = (problem, span);
-    let Workspace { room, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
-    let cages = drive.cage_after(from, rodas::NODES.map(|node| node * h));
-    let mut system = System { model, drive, cages, forces, jacobian, arrow };
-    rodas::try_step(simd, room, &progress.state, by_time, h, &mut system);
-    *largest_error = rodas::largest_error(room, weights);
-    let Room { end, last, .. } = room;
-    let stage = Stage { drive, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
+    let (Problem { model, excitation }, Span { from, length: h }) = (problem, span);
+    let Workspace { buffers, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
+    let cages = excitation.cage_after(from, rodas::NODES.map(|node| node * h));
+    let mut system = System { model, excitation, cages, forces, jacobian, arrow };
+    rodas::try_step(simd, buffers, &progress.state, by_time, h, &mut system);
+    *largest_error = rodas::largest_error(buffers, weights);
+    let StageBuffers { end, last, .. } = buffers;
+    let stage = Stage { excitation, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
     model.derivative_on::<S, true>(simd, &stage, last, forces);
 }
 
@@ -107,20 +111,26 @@ impl Kernel for Probe<'_> {
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Self { workspace, problem: Problem { model, drive }, span: Span { from, length: h }, share, progress } =
-            self;
-        let Workspace { room, forces, dense, scratch, pair, .. } = workspace;
-        let cage = drive.cage_at(from + share * h);
+        let Self { workspace, problem, span: Span { from, length: h }, share, progress } = self;
+        let Problem { model, excitation } = problem;
+        let Workspace { buffers, forces, dense, scratch, pair, .. } = workspace;
+        let cage = excitation.cage_at(from + share * h);
         match pair {
-            _ if progress.choice.implicit => rodas::dense(simd, room, &progress.state, share, dense),
-            Pair::DormandPrince => dormand_prince::dense(simd, room, &progress.state, h, share, dense),
-            Pair::PhaseFitted => {
-                let start = Known { cage: drive.cage_at(from), state: &progress.state, derivative: &room.first };
-                let end = Known { cage: drive.cage_at(from + h), state: &room.end, derivative: &room.last };
-                model.dense_output(drive, [start, end], h, share, &cage, dense);
+            _ if progress.choice.implicit => rodas::dense(simd, buffers, &progress.state, share, dense),
+            ExplicitMethod::DormandPrince => dormand_prince::dense(simd, buffers, &progress.state, h, share, dense),
+            ExplicitMethod::PhaseFitted => {
+                let start =
+                    Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
+                let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
+                model.dense_output(excitation, [start, end], h, share, &cage, dense);
             }
         }
-        model.derivative_on::<S, true>(simd, &Stage { drive, cage: &cage, state: dense, ahead: None }, scratch, forces);
+        model.derivative_on::<S, true>(
+            simd,
+            &Stage { excitation, cage: &cage, state: dense, ahead: None },
+            scratch,
+            forces,
+        );
         forces.settle(model, dense);
     }
 }
@@ -128,7 +138,7 @@ impl Kernel for Probe<'_> {
 /// The equations of motion and their linear systems during one implicit step.
 struct System<'a> {
     model: &'a Model,
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     cages: [CageState; 8],
     forces: &'a mut Forces,
     jacobian: &'a Jacobian,
@@ -138,7 +148,7 @@ struct System<'a> {
 impl rodas::System for System<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
-        let stage = Stage { drive: self.drive, cage: &self.cages[stage], state, ahead: None };
+        let stage = Stage { excitation: self.excitation, cage: &self.cages[stage], state, ahead: None };
         self.model.derivative_on::<S, false>(simd, &stage, out, self.forces);
     }
 
@@ -150,7 +160,7 @@ impl rodas::System for System<'_> {
 /// The equations of motion during one explicit step, and what the stages add up to.
 struct Stages<'a> {
     model: &'a Model,
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     /// Those of the first stages; the last two are at the same time.
     cages: [CageState; LAST],
     /// Weights of the stages.
@@ -164,7 +174,7 @@ impl RightHandSide for Stages<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
         let (model, forces) = (self.model, &mut *self.forces);
-        let at = Stage { drive: self.drive, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
+        let at = Stage { excitation: self.excitation, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
         match ahead {
             None if stage == LAST => return simd.outlined(Evaluation::<true, false> { model, at, out, forces }),
             None => simd.outlined(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),

@@ -3,7 +3,7 @@
 use super::progress::Progress;
 use super::workspace::Workspace;
 use crate::numerics::rough_power;
-use crate::simulation::integration::methods::Pair;
+use crate::simulation::integration::methods::ExplicitMethod;
 
 /// How far beyond the stable step one may go to land: what grows there is taken back by the next steps, or by error
 /// control.
@@ -15,7 +15,7 @@ const EQUAL_SLACK: f64 = 1.03;
 /// Wanner, *Solving Ordinary Differential Equations II*, IV.2) with the exponents usual for an estimate of this order.
 pub(super) fn step_factor(workspace: &Workspace, error: f64, last_error: f64, progress: &Progress) -> f64 {
     let [now, before] = match workspace.pair {
-        Pair::PhaseFitted if !progress.choice.implicit => [-0.21, 0.05],
+        ExplicitMethod::PhaseFitted if !progress.choice.implicit => [-0.21, 0.05],
         _ => [-0.17, 0.04],
     };
     0.9 * rough_power(error.max(1e-10), now) * rough_power(last_error, before)

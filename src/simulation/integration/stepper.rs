@@ -73,7 +73,7 @@ impl Stepper<'_> {
     pub fn advance(&mut self, step: f64) -> Result<(), StepError> {
         let mut advance = self.start(step)?;
         while !advance.is_done() {
-            self.go_on(&mut advance)?;
+            self.advance_once(&mut advance)?;
         }
         self.finish(&advance);
         Ok(())
@@ -89,7 +89,7 @@ impl Stepper<'_> {
     }
 
     /// Takes one accepted step, and passes the knots at its end, so that outputs there are those of the new cell.
-    pub fn go_on(&mut self, advance: &mut Advance) -> Result<(), StepError> {
+    pub fn advance_once(&mut self, advance: &mut Advance) -> Result<(), StepError> {
         let (tau, end) = (advance.tau, advance.end);
         let target = advance.knot.map_or(end, |k| k.tau.min(end));
         let (implicit, pair) = (self.progress.choice.implicit, self.workspace.pair);
@@ -97,12 +97,12 @@ impl Stepper<'_> {
         for (sum, force) in advance.impulse.iter_mut().zip(self.workspace.weighted_force) {
             *sum += h * force;
         }
-        advance.at_once = 0;
+        advance.simultaneous = 0;
         advance.tau = if h == target - tau { target } else { tau + h };
         let taken = self.progress.steps + self.progress.rejected_steps - advance.first_count;
         if taken > self.control.max_steps && !advance.is_done() {
             // The accepted step's stages have been handed on: back for an inspection.
-            self.workspace.room.carry_over();
+            self.workspace.buffers.carry_over();
             return Err(StepError::TooManySteps {
                 steps: taken,
                 limit: self.control.max_steps,
@@ -135,7 +135,7 @@ impl Stepper<'_> {
         while let Some(at) = advance.knot
             && at.tau <= advance.tau
         {
-            advance.knot = self.pass(at, advance.tau, advance.end, &mut advance.at_once)?;
+            advance.knot = self.pass(at, advance.tau, advance.end, &mut advance.simultaneous)?;
             if !advance.is_done() {
                 self.workspace.first_stage(self.problem, advance.tau, self.progress);
             }
@@ -164,17 +164,17 @@ impl Stepper<'_> {
     }
 
     fn next_knot(&self, from: f64, legs: Legs, end: f64) -> Option<Knot> {
-        next_knot(self.problem.model, self.problem.drive, from, legs, end, &self.progress.cells)
+        next_knot(self.problem.model, self.problem.excitation, from, legs, end, &self.progress.cells)
     }
 
-    /// Passes a knot at `tau` and gives the next one; `at_once` counts those between which no time passes.
-    fn pass(&mut self, at: Knot, tau: f64, end: f64, at_once: &mut usize) -> Result<Option<Knot>, StepError> {
-        *at_once += 1;
+    /// Passes a knot at `tau` and gives the next one; `simultaneous` counts those between which no time passes.
+    fn pass(&mut self, at: Knot, tau: f64, end: f64, simultaneous: &mut usize) -> Result<Option<Knot>, StepError> {
+        *simultaneous += 1;
         let model = self.problem.model;
         let knots: usize = model.all_defects().map(Defects::knot_count).sum();
         // Each element can pass each knot once.
-        if *at_once > model.element_count * knots {
-            return Err(StepError::TooFast { count: *at_once, since: tau });
+        if *simultaneous > model.element_count * knots {
+            return Err(StepError::TooFast { count: *simultaneous, since: tau });
         }
         at.contact.enter(at.cell, &mut self.progress.cells);
         Ok(self.next_knot(tau, at.legs, end))
@@ -188,7 +188,7 @@ impl Stepper<'_> {
         // A landing on a contact change or a crossing: the step that ends there.
         let mut landing = None;
         let mut crossing: Option<Crossing> = None;
-        let (mut tried, mut at_once) = (0, 0);
+        let (mut tried, mut simultaneous) = (0, 0);
         loop {
             let Self { problem, workspace, progress, .. } = self;
             let wanted = progress.choice.limited(progress.next_step).min(problem.longest_step());
@@ -207,10 +207,10 @@ impl Stepper<'_> {
             }
             if let Some(found) = crossing.filter(|found| landing.is_none() && found.share <= CLOSEST_CHANGE) {
                 crossing = None;
-                at_once += 1;
+                simultaneous += 1;
                 // Each contact enters a cell and perhaps leaves it again; what goes on for longer than that stands on
                 // the knot, and its motion is the same in both cells.
-                if at_once <= 2 * problem.model.contact_count() {
+                if simultaneous <= 2 * problem.model.contact_count() {
                     progress.rejected_steps += 1;
                     found.contact.enter(found.cell, &mut progress.cells);
                     workspace.first_stage(*problem, from, progress);
@@ -303,11 +303,12 @@ impl Stepper<'_> {
             let share = (tau - span.from).max(0.0) / span.length;
             probe(workspace, *problem, span, share, progress);
             workspace.sensor_modes.copy_from_slice(&progress.sensor_modes);
-            let Workspace { room, sensor_modes, .. } = &mut **workspace;
-            let ends = step_ends(room, &progress.state, span.length);
+            let Workspace { buffers, sensor_modes, .. } = &mut **workspace;
+            let ends = step_ends(buffers, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, share, sensor_modes);
             let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
-            let solution = Solution { drive: problem.drive, tau, state: dense, derivative: scratch, sensor_modes };
+            let solution =
+                Solution { excitation: problem.excitation, tau, state: dense, derivative: scratch, sensor_modes };
             let outputs = Outputs::new(problem.model, solution, forces, recorder.angles());
             recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
@@ -321,15 +322,15 @@ impl Stepper<'_> {
         }
         let Self { problem, workspace, progress, .. } = self;
         if !progress.sensor_modes.is_empty() {
-            let ends = step_ends(&workspace.room, &progress.state, span.length);
+            let ends = step_ends(&workspace.buffers, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, 1.0, &mut progress.sensor_modes);
         }
-        std::mem::swap(&mut progress.state, &mut workspace.room.end);
+        std::mem::swap(&mut progress.state, &mut workspace.buffers.end);
         progress.steps += 1;
         progress.implicit_steps += u64::from(progress.choice.implicit);
         // Contacts that failed in trials which error control took back are of no account.
         workspace.forces.unsolved = None;
-        workspace.room.carry_over();
+        workspace.buffers.carry_over();
         workspace.first_force = workspace.last_force;
         workspace.linearized = false;
         let (model, since) = (problem.model, span.end());

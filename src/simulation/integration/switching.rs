@@ -14,7 +14,7 @@
 //! there before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
 use crate::dynamics::derivatives::{Fastest, Jacobian};
-use crate::simulation::integration::methods::{Pair, dormand_prince, phase_fitted, rodas};
+use crate::simulation::integration::methods::{ExplicitMethod, dormand_prince, phase_fitted, rodas};
 use crate::simulation::step_error::SMALLEST_STEP;
 
 /// Which methods a simulation may use.
@@ -53,12 +53,12 @@ impl Method {
     }
 
     /// The explicit method for a tolerance; `damped`: the last check found the fastest motion strongly damped.
-    pub(super) fn pair(self, tolerance: f64, damped: bool) -> Pair {
+    pub(super) fn pair(self, tolerance: f64, damped: bool) -> ExplicitMethod {
         match self {
-            Self::DormandPrince => Pair::DormandPrince,
-            Self::PhaseFitted => Pair::PhaseFitted,
-            _ if tolerance >= LOOSE && !damped => Pair::PhaseFitted,
-            _ => Pair::DormandPrince,
+            Self::DormandPrince => ExplicitMethod::DormandPrince,
+            Self::PhaseFitted => ExplicitMethod::PhaseFitted,
+            _ if tolerance >= LOOSE && !damped => ExplicitMethod::PhaseFitted,
+            _ => ExplicitMethod::DormandPrince,
         }
     }
 }
@@ -183,13 +183,13 @@ impl Choice {
 }
 
 /// Steps per second that the stability of an explicit method asks for.
-fn rate_of_steps(jacobian: &Jacobian, pair: Pair) -> f64 {
+fn rate_of_steps(jacobian: &Jacobian, pair: ExplicitMethod) -> f64 {
     let Fastest { eigenvalue, damping } = jacobian.fastest();
     eigenvalue / reach(pair, damping)
 }
 
 /// Longest stable step of an explicit method (s); a number even where nothing moves by itself.
-fn stable_step(jacobian: &Jacobian, pair: Pair) -> f64 {
+fn stable_step(jacobian: &Jacobian, pair: ExplicitMethod) -> f64 {
     (1.0 / rate_of_steps(jacobian, pair)).min(f64::MAX)
 }
 
@@ -197,15 +197,15 @@ fn stable_step(jacobian: &Jacobian, pair: Pair) -> f64 {
 /// more.
 fn is_damped(jacobian: &Jacobian) -> bool {
     let damping = jacobian.fastest().damping;
-    reach(Pair::PhaseFitted, damping) < 1.1 * reach(Pair::DormandPrince, damping)
+    reach(ExplicitMethod::PhaseFitted, damping) < 1.1 * reach(ExplicitMethod::DormandPrince, damping)
 }
 
 /// Reach of a method's stability region along an eigenvalue of damping ratio `damping`. Near the imaginary axis
 /// Dormand–Prince's is taken where amplitudes grow by 3 % a step: what moves fastest hardly ever is the least damped.
-fn reach(pair: Pair, damping: f64) -> f64 {
+fn reach(pair: ExplicitMethod, damping: f64) -> f64 {
     match pair {
-        Pair::DormandPrince => 2.0 + 4.0 * damping.min(0.3),
-        Pair::PhaseFitted => {
+        ExplicitMethod::DormandPrince => 2.0 + 4.0 * damping.min(0.3),
+        ExplicitMethod::PhaseFitted => {
             let above =
                 PHASE_FITTED_REACH.partition_point(|&(at, _)| at <= damping).clamp(1, PHASE_FITTED_REACH.len() - 1);
             let ((a, reach_a), (b, reach_b)) = (PHASE_FITTED_REACH[above - 1], PHASE_FITTED_REACH[above]);
@@ -236,10 +236,10 @@ mod tests {
     use crate::simulation::integration::methods::phase_fitted;
 
     /// Largest factor of amplitude in one step with h|λ| = radius and this damping ratio.
-    fn amplification(pair: Pair, radius: f64, damping: f64) -> f64 {
+    fn amplification(pair: ExplicitMethod, radius: f64, damping: f64) -> f64 {
         match pair {
             // 1 + z + z²/2 + z³/6 + z⁴/24 + z⁵/120 + z⁶/600, the stability function of Dormand–Prince 5(4).
-            Pair::DormandPrince => {
+            ExplicitMethod::DormandPrince => {
                 let (re, im) = (-radius * damping, radius * (1.0 - damping * damping).sqrt());
                 let mut sum = (0.0, 0.0);
                 for c in [1.0 / 600.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
@@ -248,7 +248,7 @@ mod tests {
                 f64::hypot(sum.0, sum.1)
             }
             // x'' = −r² x − 2 ζ r x' with a step of 1, from both unit states.
-            Pair::PhaseFitted => {
+            ExplicitMethod::PhaseFitted => {
                 let column = |x: f64, v: f64| {
                     let (mut rates, mut forces) = ([0.0; 5], [0.0; 5]);
                     for i in 0..5 {
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn the_reach_lies_within_the_stability_region() {
-        for (pair, growth) in [(Pair::DormandPrince, 1.04), (Pair::PhaseFitted, 1.008)] {
+        for (pair, growth) in [(ExplicitMethod::DormandPrince, 1.04), (ExplicitMethod::PhaseFitted, 1.008)] {
             for i in 0..=1000 {
                 let damping = f64::from(i) / 1000.0;
                 for k in 1..=40 {
@@ -280,9 +280,13 @@ mod tests {
             }
         }
         assert!(
-            amplification(Pair::DormandPrince, 3.35, 1.0) > 1.0 && amplification(Pair::DormandPrince, 2.4, 0.0) > 1.1
+            amplification(ExplicitMethod::DormandPrince, 3.35, 1.0) > 1.0
+                && amplification(ExplicitMethod::DormandPrince, 2.4, 0.0) > 1.1
         );
-        assert!(amplification(Pair::PhaseFitted, 3.0, 1.0) > 1.3 && amplification(Pair::PhaseFitted, 3.8, 0.0) > 1.1);
+        assert!(
+            amplification(ExplicitMethod::PhaseFitted, 3.0, 1.0) > 1.3
+                && amplification(ExplicitMethod::PhaseFitted, 3.8, 0.0) > 1.1
+        );
     }
 
     #[test]
@@ -296,9 +300,10 @@ mod tests {
     #[test]
     fn the_phase_fitted_method_steps_where_the_tolerance_is_loose_and_damping_is_not_strong() {
         let pair = |tolerance, damped| Method::Automatic.pair(tolerance, damped);
-        assert_eq!([pair(1e-3, false), pair(1e-6, false)], [Pair::PhaseFitted; 2]);
-        assert_eq!([pair(1e-7, false), pair(1e-3, true)], [Pair::DormandPrince; 2]);
-        let reaches = |damping| reach(Pair::PhaseFitted, damping) / reach(Pair::DormandPrince, damping);
+        assert_eq!([pair(1e-3, false), pair(1e-6, false)], [ExplicitMethod::PhaseFitted; 2]);
+        assert_eq!([pair(1e-7, false), pair(1e-3, true)], [ExplicitMethod::DormandPrince; 2]);
+        let reaches =
+            |damping| reach(ExplicitMethod::PhaseFitted, damping) / reach(ExplicitMethod::DormandPrince, damping);
         assert!(reaches(0.1) > 1.6 && reaches(0.6) > 1.2 && reaches(1.0) < 0.7);
     }
 
@@ -334,7 +339,7 @@ mod tests {
         assert_eq!(choice.limited(1.0), 1.0);
         while !choice.explicit_step(1e-9, 1, false) {}
         choice.check_explicit(&fast, Method::Automatic, 1e-9);
-        let limit = 1.0 / rate_of_steps(&fast, Pair::DormandPrince);
+        let limit = 1.0 / rate_of_steps(&fast, ExplicitMethod::DormandPrince);
         assert_eq!((choice.limited(1.0), choice.limited(0.5 * limit)), (limit, 0.5 * limit));
         assert_eq!(Choice { implicit: true, ..choice }.limited(1.0), 1.0);
     }

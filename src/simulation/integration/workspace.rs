@@ -6,10 +6,10 @@
 use super::progress::Progress;
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::Jacobian;
-use crate::dynamics::parameters::{Drive, Layout, Model, StepEnds};
+use crate::dynamics::parameters::{Excitation, Layout, Model, StepEnds};
 use crate::numerics::lanes::row::Row;
 use crate::scene::Motion;
-use crate::simulation::integration::methods::{Arrow, Pair, Room};
+use crate::simulation::integration::methods::{Arrow, ExplicitMethod, StageBuffers};
 
 /// Approach below which errors are no longer measured relative to it (m): a contact of about 0.2 N.
 const SMALLEST_APPROACH: f64 = 0.1e-6;
@@ -27,7 +27,7 @@ pub struct Problem<'a> {
     /// The equations.
     pub model: &'a Model,
     /// What acts from outside.
-    pub drive: &'a Drive,
+    pub excitation: &'a Excitation,
 }
 
 impl Problem<'_> {
@@ -35,7 +35,11 @@ impl Problem<'_> {
     /// error would say so, and mean forces are sums over the stages.
     pub(super) fn longest_step(&self) -> f64 {
         let hosted = [&self.model.shaft, &self.model.housing].iter().any(|ring| ring.motion == Motion::Host);
-        if hosted && self.model.elements_in_balance() { MOST_TURN / self.drive.cage.0[1].abs() } else { f64::INFINITY }
+        if hosted && self.model.elements_in_balance() {
+            MOST_TURN / self.excitation.cage.0[1].abs()
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
@@ -58,9 +62,9 @@ impl Span {
 /// Workspaces of the integration; holds nothing that the future depends on.
 #[derive(Debug, Clone)]
 pub struct Workspace {
-    pub(super) room: Room,
+    pub(super) buffers: StageBuffers,
     /// Which explicit method steps.
-    pub(super) pair: Pair,
+    pub(super) pair: ExplicitMethod,
     pub(super) jacobian: Jacobian,
     /// ∂f/∂t at the start of the step.
     pub(super) by_time: Row,
@@ -92,8 +96,8 @@ impl Workspace {
         let len = model.layout.len;
         let positions = Row::from_fn(len, |i| f64::from(u8::from(model.layout.is_position(i))));
         Self {
-            room: Room::new(model.layout.partition(), positions),
-            pair: Pair::default(),
+            buffers: StageBuffers::new(model.layout.partition(), positions),
+            pair: ExplicitMethod::default(),
             jacobian: Jacobian::new(model),
             by_time: Row::zeros(len),
             linearized: false,
@@ -114,8 +118,8 @@ impl Workspace {
 
     /// Derivative at the start of the next step, at `tau` (s) after the communication point.
     pub(super) fn first_stage(&mut self, problem: Problem, tau: f64, progress: &Progress) {
-        let (first, forces) = (&mut self.room.first, &mut self.forces);
-        problem.model.derivative(problem.drive, tau, &progress.cells, &progress.state, first, forces);
+        let (first, forces) = (&mut self.buffers.first, &mut self.forces);
+        problem.model.derivative(problem.excitation, tau, &progress.cells, &progress.state, first, forces);
         self.first_force = self.forces.rings;
         self.linearized = false;
     }
@@ -124,7 +128,7 @@ impl Workspace {
     pub(super) fn linearize(&mut self, problem: Problem, tau: f64, progress: &Progress) {
         if !self.linearized {
             let (jacobian, by_time) = (&mut self.jacobian, &mut self.by_time);
-            problem.model.linearize(problem.drive, tau, &progress.cells, &progress.state, jacobian, by_time);
+            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, by_time);
             self.linearized = true;
         }
     }
@@ -136,8 +140,8 @@ impl Workspace {
 }
 
 /// Both ends of the step of `length` (s) tried last from the state `start`.
-pub(super) fn step_ends<'a>(room: &'a Room, start: &'a [f64], length: f64) -> StepEnds<'a> {
-    StepEnds { states: [start, &room.end], derivatives: [&room.first, &room.last], length }
+pub(super) fn step_ends<'a>(buffers: &'a StageBuffers, start: &'a [f64], length: f64) -> StepEnds<'a> {
+    StepEnds { states: [start, &buffers.end], derivatives: [&buffers.first, &buffers.last], length }
 }
 
 /// Weight that turns the error of state `i` into a length.

@@ -2,7 +2,7 @@
 
 use super::quantity::{Quantity, RingName};
 use crate::dynamics::contacts::Forces;
-use crate::dynamics::parameters::{CageState, Drive, Frame, Model, RingState};
+use crate::dynamics::parameters::{CageState, Excitation, Frame, Model, RingState};
 use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
@@ -19,7 +19,7 @@ pub struct Angles {
 #[derive(Debug, Clone, Copy)]
 pub struct Solution<'a> {
     /// What acts from outside.
-    pub drive: &'a Drive,
+    pub excitation: &'a Excitation,
     /// Time since the communication point (s).
     pub tau: f64,
     /// State vector.
@@ -42,7 +42,7 @@ pub struct Outputs<'a> {
     /// The nominal cage.
     cage: CageState,
     model: &'a Model,
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     tau: f64,
 }
 
@@ -55,8 +55,8 @@ impl<'a> Outputs<'a> {
     /// Those of a solution. Its derivative and `forces` are the model's for its state; `start` are the angles at the
     /// communication point.
     pub fn new(model: &'a Model, solution: Solution<'a>, forces: &'a Forces, start: Angles) -> Self {
-        let Solution { drive, tau, state, derivative, sensor_modes } = solution;
-        model.begin(drive);
+        let Solution { excitation, tau, state, derivative, sensor_modes } = solution;
+        model.begin(excitation);
         let mut sensors = [0.0; MOST_SENSORS];
         for (k, i) in model.layout.sensor_indices().enumerate() {
             sensors[k] = model.sensor_modes.measured(k, derivative[i + 1], sensor_modes);
@@ -64,16 +64,16 @@ impl<'a> Outputs<'a> {
         Self {
             state,
             forces,
-            ring: [model.shaft_state(drive, tau, state), model.housing_state(drive, tau, state)],
-            acceleration: model.ring_rates(drive, tau, derivative).map(|ring| ring.velocity),
+            ring: [model.shaft_state(excitation, tau, state), model.housing_state(excitation, tau, state)],
+            acceleration: model.ring_rates(excitation, tau, derivative).map(|ring| ring.velocity),
             sensors,
             angles: Angles {
-                cage: start.cage + drive.cage.at(tau),
-                frames: std::array::from_fn(|i| start.frames[i] + drive.frames[i].since.at(tau)),
+                cage: start.cage + excitation.cage.at(tau),
+                frames: std::array::from_fn(|i| start.frames[i] + excitation.frames[i].since.at(tau)),
             },
-            cage: drive.cage_at(tau),
+            cage: excitation.cage_at(tau),
             model,
-            drive,
+            excitation,
             tau,
         }
     }
@@ -99,7 +99,7 @@ impl<'a> Outputs<'a> {
             // A sum over all elements, and recorders do not ask for it.
             Quantity::CageTorque => {
                 let acceleration = self.acceleration[RingName::Housing.index()];
-                self.model.cage_torque(self.drive, self.tau, self.state, acceleration, self.forces)
+                self.model.cage_torque(self.excitation, self.tau, self.state, acceleration, self.forces)
             }
             Quantity::ElementAngle(j) => self.element_angle(j),
             Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.element_angle(j)),

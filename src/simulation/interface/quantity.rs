@@ -130,8 +130,8 @@ impl Quantity {
 impl Input {
     /// Highest order of the derivatives by time that act, and how the input's description says so.
     ///
-    /// What would make a higher polynomial than [`Drive`](crate::dynamics::parameters::Drive) has is refused: the
-    /// cage's angle is a quadratic, so that the instants at which elements pass knots are roots of one.
+    /// What would make a higher polynomial than [`Excitation`](crate::dynamics::parameters::Excitation) has is refused:
+    /// the cage's angle is a quadratic, so that the instants at which elements pass knots are roots of one.
     pub(in crate::simulation) fn derivatives(self) -> (i32, &'static str) {
         match self {
             Self::Position(..) => (2, "derivatives of orders 1 and 2 act, in place of velocity and acceleration"),

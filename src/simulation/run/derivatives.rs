@@ -15,42 +15,13 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
-use super::life::Fresh;
 use super::values::{as_many, out_of_range};
-use crate::dynamics::parameters::{CageState, Drive, Frame, Kinematics, Lead};
+use crate::dynamics::parameters::{CageState, Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
-use crate::simulation::interface::{Change, Input, Parameter, Quantity, RingName, access, dependencies};
+use crate::simulation::interface::{Change, Input, Quantity, RingName, dependencies, value_access};
 use crate::simulation::{Simulation, SimulationError, VariableError};
-
-/// How far a parameter is moved for the difference of two starts. Forces of a start are known to 1e-12 of the load, and
-/// this moves them by 1e-8 to 1e-3 of it; on the way to a defect's edge it is 20 nm. Contacts that are pressed in by
-/// `approach` (m) feel a clearance beside that, and a ring on a soft spring the spring's own share.
-fn difference(parameter: Parameter, at: f64, nominal: f64, approach: f64) -> f64 {
-    match parameter {
-        Parameter::RadialClearance if approach > 0.0 => (1e-4 * approach).clamp(1e-12, 1e-9),
-        Parameter::RadialClearance => 1e-9,
-        // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
-        Parameter::ContactDamping => 1e-2 * nominal,
-        Parameter::CageSlip | Parameter::SpinSlip => 1e-3,
-        Parameter::RingStiffness(_) if at > 0.0 => (1e-2 * at).min(1e3),
-        Parameter::RingStiffness(_) => 1e3,
-        _ => 1e-6,
-    }
-}
-
-/// Steps at which to look, and shares of the changes until there in the derivative times a step: on both sides, or
-/// where a limit is nearer than a step all on the other. The error is of the step's second order.
-fn quotient(at: f64, step: f64, [min, max]: [Option<f64>; 2]) -> [(f64, f64); 2] {
-    if min.is_some_and(|min| at - step < min) {
-        [(1.0, 2.0), (2.0, -0.5)]
-    } else if max.is_some_and(|max| at + step > max) {
-        [(-1.0, -2.0), (-2.0, 0.5)]
-    } else {
-        [(-1.0, -0.5), (1.0, 0.5)]
-    }
-}
 
 impl Simulation {
     /// Derivatives by time of real outputs at the present time; of order 1.
@@ -76,11 +47,18 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         self.refresh()?;
-        let drive = self.drive(true);
+        let excitation = self.excitation(true);
         self.model.forget_contacts();
         let progress = &self.state.progress;
-        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
-        self.along_time(&drive);
+        self.model.derivative(
+            &excitation,
+            0.0,
+            &progress.cells,
+            &progress.state,
+            &mut self.derivative,
+            &mut self.forces,
+        );
+        self.along_time(&excitation);
         self.finish_change(references);
         for (value, &reference) in values.iter_mut().zip(references) {
             *value = self.changed(self.quantities[reference as usize]);
@@ -122,8 +100,8 @@ impl Simulation {
         }
         for (&reference, &value) in knowns.iter().zip(seed) {
             let variable = self.variable(reference)?;
-            let class = access::classes(&self.access, &[reference]);
-            if class != Some(access::INPUT) && (self.state.started || class != Some(access::PARAMETER)) {
+            let class = value_access::classes(&self.access, &[reference]);
+            if class != Some(value_access::INPUT) && (self.state.started || class != Some(value_access::PARAMETER)) {
                 return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
             }
             if !value.is_finite() {
@@ -134,10 +112,10 @@ impl Simulation {
         self.model.forget_contacts();
         self.along_inputs(knowns, seed);
         if !self.state.started {
-            let drive = self.drive(false);
+            let excitation = self.excitation(false);
             let (progress, loads) = (&self.state.progress, self.change.loads);
             let found = self.model.vary_equilibrium(
-                &drive,
+                &excitation,
                 &progress.cells,
                 &progress.state,
                 loads,
@@ -154,37 +132,6 @@ impl Simulation {
                 && dependencies::balances(parameter)
             {
                 self.along_parameter(unknowns, (known, parameter), weight, values)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the derivative of `unknowns` at the start by a parameter, `weight` times, to `values`.
-    fn along_parameter(
-        &self,
-        unknowns: &[u32],
-        (known, parameter): (u32, Parameter),
-        weight: f64,
-        values: &mut [f64],
-    ) -> Result<(), SimulationError> {
-        let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
-        let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
-        start.reals(unknowns, &mut here)?;
-        let approach = start.forces.contacts.inner_approach.iter().copied().fold(0.0, f64::max);
-        let at = self.state.reals[known as usize];
-        let step = difference(parameter, at, nominal, approach);
-        let mut there = here.clone();
-        // Half the step and the step, of whose errors the largest terms cancel.
-        let sides = quotient(at, step, [min, max]);
-        let halves = sides.map(|(steps, share)| (0.5 * steps, 8.0 / 3.0 * share));
-        let wholes = sides.map(|(steps, share)| (steps, -1.0 / 3.0 * share));
-        for (steps, share) in halves.into_iter().chain(wholes) {
-            start.state.reals[known as usize] = at + steps * step;
-            start.outdate(Fresh::Nothing);
-            // A start beside one that exists: where there is none, the limit of what exists has no derivative.
-            start.reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;
-            for ((value, there), here) in values.iter_mut().zip(&there).zip(&here) {
-                *value += weight * share / step * (there - here);
             }
         }
         Ok(())
@@ -252,18 +199,18 @@ impl Simulation {
     }
 
     /// The change per second of state and inputs.
-    fn along_time(&mut self, drive: &Drive) {
+    fn along_time(&mut self, excitation: &Excitation) {
         let change = &mut self.change;
         change.clear();
         let layout = &self.model.layout;
         let z = layout.element_count;
         let variation = &mut change.variation;
-        (variation.cage_angle, variation.cage_speed) = (drive.cage.0[1], drive.cage.0[2]);
-        variation.frames = drive.frame_rates(0.0);
-        variation.film_speed = drive.relative_speed.rate_at(0.0);
+        (variation.cage_angle, variation.cage_speed) = (excitation.cage.0[1], excitation.cage.0[2]);
+        variation.frames = excitation.frame_rates(0.0);
+        variation.film_speed = excitation.relative_speed.rate_at(0.0);
         variation.path.copy_from_slice(&self.derivative[..z]);
         variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
-        [variation.shaft, variation.housing] = self.model.ring_rates(drive, 0.0, &self.derivative);
+        [variation.shaft, variation.housing] = self.model.ring_rates(excitation, 0.0, &self.derivative);
         for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
             *sensor = [self.derivative[i], self.derivative[i + 1]];
         }
@@ -272,30 +219,25 @@ impl Simulation {
                 self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
         }
         // Those of internal rings follow from the forces' change.
-        change.accelerations = [&drive.shaft, &drive.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
-        for (axis, load) in drive.shaft_load.iter().chain(&drive.housing_load).enumerate() {
+        change.accelerations = [&excitation.shaft, &excitation.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
+        for (axis, load) in excitation.shaft_load.iter().chain(&excitation.housing_load).enumerate() {
             change.loads[axis] = load.rate_at(0.0);
         }
     }
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
     fn finish_change(&mut self, unknowns: &[u32]) {
-        let drive = self.drive(false);
+        let excitation = self.excitation(false);
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        let acceleration = self.present_acceleration;
-        if self.model.elements_in_balance() {
-            let Change { variation, forces, .. } = change;
-            self.model.vary_in_balance(&drive, cells, state, acceleration, variation, forces);
-        } else {
-            self.model.vary(&drive, cells, state, acceleration, &change.variation, &mut change.forces);
-        }
+        let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
+        self.model.vary(&excitation, cells, state, acceleration, variation, forces);
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
             let (variation, forces) = (&change.variation, &change.forces);
-            let cage = drive.cage_at(0.0);
+            let cage = excitation.cage_at(0.0);
             let (shaft, housing) = (variation.shaft, variation.housing);
             let moved = Kinematics { cage, shaft, housing };
             let [mut x, mut v] = moved.bodies();
@@ -327,23 +269,23 @@ impl Simulation {
             } else {
                 state
             };
-            change.stiffness = self.model.vary_stiffness(&drive, cells, state, &change.variation);
+            change.stiffness = self.model.vary_stiffness(&excitation, cells, state, &change.variation);
         }
     }
 
     /// The nominal cage at the communication point.
     fn cage_now(&self) -> CageState {
-        let drive = self.drive(false);
-        self.model.begin(&drive);
-        drive.cage_at(0.0)
+        let excitation = self.excitation(false);
+        self.model.begin(&excitation);
+        excitation.cage_at(0.0)
     }
 
     /// Change of the cage's own angle and speed.
     fn cage_change(&self) -> [f64; 2] {
         let (cage, variation) = (self.cage_now(), &self.change.variation);
-        let Lead { rate, bend, .. } = self.model.cage_lead(&cage);
+        let Lead { rate, second, .. } = self.model.cage_lead(&cage);
         let share = 1.0 + rate;
-        let speed = share * variation.cage_speed + bend * cage.speed * variation.cage_angle;
+        let speed = share * variation.cage_speed + second * cage.speed * variation.cage_angle;
         [share * variation.cage_angle, speed]
     }
 

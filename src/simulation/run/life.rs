@@ -1,10 +1,10 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
-use super::driving;
+use super::excitation;
 use super::state::{Ended, State};
 use crate::contact::map::ContactMaps;
 use crate::dynamics::contacts::Forces;
-use crate::dynamics::parameters::{Cells, Drive, Model, WholeAngle};
+use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene, nearest};
 use crate::simulation::Method;
@@ -44,12 +44,12 @@ pub struct Simulation {
     /// The outer ring's acceleration when outputs were computed last (m/s²).
     pub(in crate::simulation) present_acceleration: Vector,
     pub(in crate::simulation) state: State,
-    pub(super) fresh: Fresh,
+    pub(super) up_to_date: UpToDate,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::simulation) enum Fresh {
+pub(in crate::simulation) enum UpToDate {
     /// Nothing: parameters have been set since the model was built.
     Nothing,
     /// The model; before the start the equilibrium is still to be found.
@@ -160,7 +160,7 @@ impl Simulation {
             access,
             quantities: quantities.into(),
             model,
-            fresh: if is_complete { Fresh::Model } else { Fresh::Nothing },
+            up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
         })
     }
 
@@ -228,8 +228,8 @@ impl Simulation {
     }
 
     /// The equations of motion and what acts from outside from now on, for studies that integrate them themselves.
-    pub fn equations(&self) -> (&Model, Drive) {
-        (&self.model, self.drive(true))
+    pub fn equations(&self) -> (&Model, Excitation) {
+        (&self.model, self.excitation(true))
     }
 
     /// The state vector, laid out as [`crate::dynamics::parameters::Layout`] says.
@@ -300,14 +300,14 @@ impl Simulation {
         if let Some(recorder) = &mut self.recorder {
             recorder.rewind(&self.state.progress.due);
         }
-        self.outdate(if parameters_differ { Fresh::Nothing } else { Fresh::Model });
+        self.invalidate(if parameters_differ { UpToDate::Nothing } else { UpToDate::Model });
         // Before the start, the equilibrium rebuilds the model when it is asked for.
         if !self.state.started {
             return Ok(());
         }
         self.rebuild()?;
         if self.model.has_cells(&self.state.progress.cells) {
-            self.fresh = Fresh::State;
+            self.up_to_date = UpToDate::State;
             Ok(())
         } else {
             Err(SimulationError::ForeignState)
@@ -315,23 +315,23 @@ impl Simulation {
     }
 
     /// Notes that what follows after `last` is no longer that of the values set.
-    pub(in crate::simulation) fn outdate(&mut self, last: Fresh) {
-        self.fresh = self.fresh.min(last);
+    pub(in crate::simulation) fn invalidate(&mut self, last: UpToDate) {
+        self.up_to_date = self.up_to_date.min(last);
     }
 
     /// Where every external influence is, during the next step if `stepping`.
-    pub(in crate::simulation) fn drive(&self, stepping: bool) -> Drive {
-        driving::drive(&self.state, &self.inputs, &self.model.ratios, stepping)
+    pub(in crate::simulation) fn excitation(&self, stepping: bool) -> Excitation {
+        excitation::excitation(&self.state, &self.inputs, &self.model.ratios, stepping)
     }
 
     /// Refuses oil films that are too thick at an instant.
-    pub(super) fn check_films(&self, drive: &Drive, tau: f64) -> Result<(), SimulationError> {
-        let Some(films) = self.model.films_at(drive, tau) else { return Ok(()) };
+    pub(super) fn check_films(&self, excitation: &Excitation, tau: f64) -> Result<(), SimulationError> {
+        let Some(films) = self.model.films_at(excitation, tau) else { return Ok(()) };
         let (clearance, limit) = (self.model.clearance(Some(&films)), self.scene.bearing.smallest_radial_clearance());
         if !(clearance >= limit) {
             return Err(SimulationError::ThickFilms {
                 films_um: films.together() * 1e6,
-                speed_hz: drive.relative_speed.at(tau) / TAU,
+                speed_hz: excitation.relative_speed.at(tau) / TAU,
                 clearance_um: clearance * 1e6,
                 limit_um: limit * 1e6,
             });
@@ -351,27 +351,34 @@ impl Simulation {
         ];
         self.state.cage = WholeAngle::new(cage);
         self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
-        let drive = self.drive(false);
-        self.check_films(&drive, 0.0)?;
+        let excitation = self.excitation(false);
+        self.check_films(&excitation, 0.0)?;
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
-        progress.cells = self.model.equilibrium_with_cells(&drive, &mut progress.state)?;
+        progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
         self.model.forget_contacts();
-        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        self.model.derivative(
+            &excitation,
+            0.0,
+            &progress.cells,
+            &progress.state,
+            &mut self.derivative,
+            &mut self.forces,
+        );
         self.forces.note_pushing(&mut progress.pushing);
         let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
         progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
-        self.fresh = Fresh::State;
+        self.up_to_date = UpToDate::State;
         Ok(())
     }
 
     fn rebuild(&mut self) -> Result<(), SimulationError> {
-        if self.fresh > Fresh::Nothing {
+        if self.up_to_date > UpToDate::Nothing {
             return Ok(());
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
         self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
-        self.fresh = Fresh::Model;
+        self.up_to_date = UpToDate::Model;
         Ok(())
     }
 }

@@ -2,8 +2,9 @@
 
 mod arrays;
 mod derivatives;
-mod driving;
+mod excitation;
 mod life;
+mod parameter_derivatives;
 mod refresh;
 mod samples;
 mod state;

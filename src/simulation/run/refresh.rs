@@ -1,29 +1,36 @@
 //! Outputs are computed when somebody reads them.
 
-use super::life::{Fresh, Simulation};
+use super::life::{Simulation, UpToDate};
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Outputs, Quantity, Solution};
 
 impl Simulation {
     /// Computes all outputs but the stiffness, unless they are still those of the values set.
     pub(in crate::simulation) fn refresh(&mut self) -> Result<(), SimulationError> {
-        if self.fresh >= Fresh::Outputs {
+        if self.up_to_date >= UpToDate::Outputs {
             return Ok(());
         }
-        if !self.state.started && self.fresh < Fresh::State {
+        if !self.state.started && self.up_to_date < UpToDate::State {
             self.find_equilibrium()?;
         }
-        let drive = self.drive(false);
+        let excitation = self.excitation(false);
         let progress = &self.state.progress;
         // Outputs must not depend on what was computed before, or a restored state would show other roundings.
         self.model.forget_contacts();
-        self.model.derivative(&drive, 0.0, &progress.cells, &progress.state, &mut self.derivative, &mut self.forces);
+        self.model.derivative(
+            &excitation,
+            0.0,
+            &progress.cells,
+            &progress.state,
+            &mut self.derivative,
+            &mut self.forces,
+        );
         if !self.state.started {
             self.rest();
         }
         let progress = &self.state.progress;
         let solution = Solution {
-            drive: &drive,
+            excitation: &excitation,
             tau: 0.0,
             state: &progress.state,
             derivative: &self.derivative,
@@ -46,7 +53,7 @@ impl Simulation {
                 self.state.reals[i] = value;
             }
         }
-        self.fresh = Fresh::Outputs;
+        self.up_to_date = UpToDate::Outputs;
         Ok(())
     }
 
@@ -63,10 +70,10 @@ impl Simulation {
 
     /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
     pub(in crate::simulation) fn refresh_stiffness(&mut self) {
-        if self.fresh < Fresh::Stiffness {
-            let drive = self.drive(false);
+        if self.up_to_date < UpToDate::Stiffness {
+            let excitation = self.excitation(false);
             let progress = &self.state.progress;
-            let now = self.model.kinematics(&drive, 0.0, &progress.state);
+            let now = self.model.kinematics(&excitation, 0.0, &progress.state);
             let cells = &progress.cells;
             let jacobian = self.model.ring_jacobian(self.forces.paths(&self.model, &progress.state), cells, &now);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
@@ -74,7 +81,7 @@ impl Simulation {
                     *value = -jacobian[(row, column)];
                 }
             }
-            self.fresh = Fresh::Stiffness;
+            self.up_to_date = UpToDate::Stiffness;
         }
     }
 }

@@ -158,10 +158,10 @@ impl Simulation {
             return Some("the integration step is shorter than error control ever makes it");
         }
         if !(1e-4..=1.0).contains(&progress.last_error) {
-            return Some("the error of the last integration step is none that error control accepts");
+            return Some("the error of the last integration step is not one that error control accepts");
         }
         if !progress.choice.is_possible() {
-            return Some("the choice of the integration method is none that could have been made");
+            return Some("the choice of the integration method is not one that could have been made");
         }
         // A sample that is overdue by ages would be made up for, period by period.
         let possible = |recorder: &Recorder| {

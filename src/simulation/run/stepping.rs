@@ -5,10 +5,10 @@
 //! solved anew from there on: equal within what the solver leaves. Whoever sets an input meanwhile ends the part of the
 //! step before, and begins another with the inputs as they are.
 
-use super::driving;
-use super::life::{Fresh, Simulation};
+use super::excitation;
+use super::life::{Simulation, UpToDate};
 use super::state::Ended;
-use crate::dynamics::parameters::{Drive, WholeAngle};
+use crate::dynamics::parameters::{Excitation, WholeAngle};
 use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
 use crate::simulation::integration::{Advance, Control, Problem, Stepper};
@@ -28,7 +28,7 @@ struct InputValues {
 /// A communication step that has begun.
 #[derive(Debug, Clone)]
 pub struct StepUnderWay {
-    drive: Drive,
+    excitation: Excitation,
     control: Control,
     advance: Advance,
 }
@@ -59,18 +59,18 @@ impl StepUnderWay {
 
     /// Lets it end `elapsed` (s) after its beginning, if that is earlier than it would, and no earlier than where it
     /// is.
-    pub fn bring_forward(&mut self, elapsed: f64) {
-        self.advance.bring_forward(elapsed);
+    pub fn shorten_to(&mut self, elapsed: f64) {
+        self.advance.shorten_to(elapsed);
     }
 }
 
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        let (control, drive) = self.prepare(step)?;
-        let advanced = self.stepper(&drive, control).advance(step);
+        let (control, excitation) = self.prepare(step)?;
+        let advanced = self.stepper(&excitation, control).advance(step);
         advanced.map_err(|cause| self.failed(cause))?;
-        self.arrive(&drive, step);
+        self.commit(&excitation, step);
         Ok(())
     }
 
@@ -87,7 +87,7 @@ impl Simulation {
     /// let force = simulation.reference("element[1].force.outer")?;
     /// let mut under_way = simulation.begin_step(1e-2)?;
     /// while !under_way.is_done() {
-    ///     simulation.go_on(&mut under_way)?;
+    ///     simulation.advance_once(&mut under_way)?;
     ///     let inspection = simulation.inspect(&under_way);
     ///     let mut value = [0.0];
     ///     simulation.reals(&[force], &mut value)?;
@@ -104,27 +104,27 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
-        let (control, drive) = self.prepare(step)?;
-        let begun = self.stepper(&drive, control).start(step);
+        let (control, excitation) = self.prepare(step)?;
+        let begun = self.stepper(&excitation, control).start(step);
         let advance = begun.map_err(|cause| self.failed(cause))?;
-        Ok(StepUnderWay { drive, control, advance })
+        Ok(StepUnderWay { excitation, control, advance })
     }
 
     /// Takes one integration step of a communication step.
     ///
     /// # Errors
     /// What cannot be integrated; the communication step is then lost.
-    pub fn go_on(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
-        let StepUnderWay { drive, control, advance } = under_way;
-        let taken = self.stepper(drive, *control).go_on(advance);
+    pub fn advance_once(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
+        let StepUnderWay { excitation, control, advance } = under_way;
+        let taken = self.stepper(excitation, *control).advance_once(advance);
         taken.map_err(|cause| self.failed(cause))
     }
 
     /// Ends a communication step where it has come to.
     pub fn end_step(&mut self, under_way: StepUnderWay) {
-        let StepUnderWay { drive, control, advance } = under_way;
-        self.stepper(&drive, control).finish(&advance);
-        self.arrive(&drive, advance.tau);
+        let StepUnderWay { excitation, control, advance } = under_way;
+        self.stepper(&excitation, control).finish(&advance);
+        self.commit(&excitation, advance.tau);
     }
 
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
@@ -134,7 +134,7 @@ impl Simulation {
         let state = &self.state;
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
         let inputs = self.input_values();
-        self.arrive(&under_way.drive, under_way.advance.tau);
+        self.commit(&under_way.excitation, under_way.advance.tau);
         Inspection { time, cage, frames, ended, inputs, arrived: self.input_values() }
     }
 
@@ -144,10 +144,10 @@ impl Simulation {
     /// # Errors
     /// What cannot be integrated from here on.
     pub fn resume(&mut self, under_way: &mut StepUnderWay, inspection: Inspection) -> Result<(), SimulationError> {
-        self.fresh = Fresh::State;
+        self.up_to_date = UpToDate::State;
         if self.input_values() != inspection.arrived && !under_way.is_done() {
-            let StepUnderWay { drive, control, advance } = &*under_way;
-            self.stepper(drive, *control).finish_part(advance);
+            let StepUnderWay { excitation, control, advance } = &*under_way;
+            self.stepper(excitation, *control).finish_part(advance);
             let mut next = self.begin_step(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;
@@ -166,18 +166,18 @@ impl Simulation {
 
     /// Checks a step, and readies for it what goes along with the integration.
     #[inline]
-    fn prepare(&mut self, step: f64) -> Result<(Control, Drive), SimulationError> {
+    fn prepare(&mut self, step: f64) -> Result<(Control, Excitation), SimulationError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(SimulationError::CommunicationStep(step));
         }
         if !self.state.started {
             return Err(SimulationError::NotInitialized);
         }
-        self.fresh = Fresh::State;
-        let drive = self.drive(true);
+        self.up_to_date = UpToDate::State;
+        let excitation = self.excitation(true);
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {
-            self.check_films(&drive, tau)?;
+            self.check_films(&excitation, tau)?;
         }
         self.model.forget_contacts();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
@@ -194,13 +194,13 @@ impl Simulation {
             max_steps: self.scene.max_steps,
             method,
         };
-        Ok((control, drive))
+        Ok((control, excitation))
     }
 
     #[inline]
-    fn stepper<'a>(&'a mut self, drive: &'a Drive, control: Control) -> Stepper<'a> {
+    fn stepper<'a>(&'a mut self, excitation: &'a Excitation, control: Control) -> Stepper<'a> {
         Stepper {
-            problem: Problem { model: &self.model, drive },
+            problem: Problem { model: &self.model, excitation },
             control,
             workspace: &mut self.workspace,
             progress: &mut self.state.progress,
@@ -210,15 +210,15 @@ impl Simulation {
 
     /// Time, angles and inputs move on by `step` (s).
     #[inline]
-    fn arrive(&mut self, drive: &Drive, step: f64) {
-        self.state.cage = self.state.cage.advanced(drive.cage.at(step));
+    fn commit(&mut self, excitation: &Excitation, step: f64) {
+        self.state.cage = self.state.cage.advanced(excitation.cage.at(step));
         if self.inputs.frames {
-            for (angle, turning) in self.state.frames.iter_mut().zip(&drive.frames) {
+            for (angle, turning) in self.state.frames.iter_mut().zip(&excitation.frames) {
                 *angle = angle.advanced(turning.since.at(step));
             }
         }
         self.state.time += step;
-        driving::follow(&mut self.state, &self.inputs, &self.model.ratios, drive, step);
+        excitation::follow(&mut self.state, &self.inputs, &self.model.ratios, excitation, step);
     }
 
     fn input_values(&self) -> InputValues {

@@ -1,9 +1,9 @@
 //! The variables' values, set and read by value reference.
 
-use super::life::{Fresh, Simulation};
+use super::life::{Simulation, UpToDate};
 use super::state::Ended;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
-use crate::simulation::interface::{Count, Quantity, access};
+use crate::simulation::interface::{Count, Quantity, value_access};
 use crate::simulation::{SimulationError, VariableError};
 
 impl Simulation {
@@ -46,8 +46,9 @@ impl Simulation {
     /// Sets reals, a value for each reference; all or none. Inputs at any time, parameters before `initialize`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), VariableError> {
         as_many(references.len(), values.len())?;
-        let writable = if self.state.started { access::INPUT } else { access::INPUT | access::PARAMETER };
-        let Some(classes) = access::can_set(&self.access, writable, references, values) else {
+        let writable =
+            if self.state.started { value_access::INPUT } else { value_access::INPUT | value_access::PARAMETER };
+        let Some(classes) = value_access::can_set(&self.access, writable, references, values) else {
             return references
                 .iter()
                 .zip(values)
@@ -56,10 +57,10 @@ impl Simulation {
         for (&reference, &value) in references.iter().zip(values) {
             self.state.reals[reference as usize] = value;
         }
-        if classes & access::INPUT != 0 {
+        if classes & value_access::INPUT != 0 {
             self.state.ended = Ended::default();
         }
-        self.note_set(classes & access::PARAMETER != 0);
+        self.note_set(classes & value_access::PARAMETER != 0);
         Ok(())
     }
 
@@ -82,13 +83,13 @@ impl Simulation {
     /// Reads reals, one for each place in `values`. Outputs are computed if something has changed since they were last.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
         as_many(references.len(), values.len())?;
-        let Some(classes) = access::classes(&self.access, references) else {
+        let Some(classes) = value_access::classes(&self.access, references) else {
             return Err(self.not_real(references).into());
         };
-        if classes & access::OUTPUT != 0 {
+        if classes & value_access::OUTPUT != 0 {
             self.refresh()?;
         }
-        if classes & access::STIFFNESS != 0 {
+        if classes & value_access::STIFFNESS != 0 {
             self.refresh_stiffness();
         }
         for (value, &reference) in values.iter_mut().zip(references) {
@@ -241,10 +242,10 @@ impl Simulation {
 
     /// Notes that inputs or, if `model`, parameters have been set.
     fn note_set(&mut self, model: bool) {
-        self.outdate(match (model, self.state.started) {
-            (true, _) => Fresh::Nothing,
-            (false, false) => Fresh::Model,
-            (false, true) => Fresh::State,
+        self.invalidate(match (model, self.state.started) {
+            (true, _) => UpToDate::Nothing,
+            (false, false) => UpToDate::Model,
+            (false, true) => UpToDate::State,
         });
     }
 

@@ -26,7 +26,7 @@ const FINEST: f64 = 1.099511627776e12;
 
 /// A surface on a body: one defect, or several that are close together.
 #[derive(Debug, Clone)]
-pub(in crate::simulation) struct Spot<'a> {
+pub(in crate::simulation) struct PlacedSurface<'a> {
     /// The body.
     pub(super) on: DefectOn,
     /// The surface; its arcs count from `centre`.
@@ -63,7 +63,7 @@ pub(super) fn sides(on: DefectOn) -> &'static [RacewaySide] {
 pub(in crate::simulation) fn arranged<'a>(
     scene: &Scene,
     surfaces: &'a [Surface],
-) -> Result<Vec<Spot<'a>>, SurfaceError> {
+) -> Result<Vec<PlacedSurface<'a>>, SurfaceError> {
     let mut spots = Vec::new();
     for (index, defect) in scene.defects.iter().enumerate().take(surfaces.len()) {
         let same = |other: &DefectOn| is_same_body(*other, defect.on);
@@ -84,10 +84,10 @@ fn is_same_body(one: DefectOn, other: DefectOn) -> bool {
 }
 
 /// The spots of one body, which bears the defects `all`.
-fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<Vec<Spot<'a>>, SurfaceError> {
+fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<Vec<PlacedSurface<'a>>, SurfaceError> {
     if let [one] = *all {
         let defect = &scene.defects[one];
-        return Ok(vec![Spot { on: defect.on, surface: Cow::Borrowed(&surfaces[one]), centre: defect.angle }]);
+        return Ok(vec![PlacedSurface { on: defect.on, surface: Cow::Borrowed(&surfaces[one]), centre: defect.angle }]);
     }
     let radius = scene.defects[all[0]].on.radius(&scene.bearing);
     let mut covered: Vec<Covered> = all
@@ -135,12 +135,16 @@ fn joined<'a>(
     covered: &[Covered],
     group: &[usize],
     apart: f64,
-) -> Result<Spot<'a>, SurfaceError> {
+) -> Result<PlacedSurface<'a>, SurfaceError> {
     let first = &covered[group[0]];
     let defect = &scene.defects[first.index];
     let radius = defect.on.radius(&scene.bearing);
     if group.len() == 1 {
-        return Ok(Spot { on: defect.on, surface: Cow::Borrowed(&surfaces[first.index]), centre: defect.angle });
+        return Ok(PlacedSurface {
+            on: defect.on,
+            surface: Cow::Borrowed(&surfaces[first.index]),
+            centre: defect.angle,
+        });
     }
     let mut profiles = Vec::with_capacity(group.len());
     for &k in group {
@@ -158,7 +162,7 @@ fn joined<'a>(
     let middle = finest(0.5 * (begin + end));
     profiles.iter_mut().for_each(|(arc, _)| *arc -= middle);
     let surface = Cow::Owned(Surface::Profile(crate::surface::Profile::joined(&profiles)));
-    Ok(Spot { on: defect.on, surface, centre: defect.angle + middle / radius })
+    Ok(PlacedSurface { on: defect.on, surface, centre: defect.angle + middle / radius })
 }
 
 /// An arc (m) to a picometre.

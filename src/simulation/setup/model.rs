@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::arrangement::{Spot, arranged};
+use super::arrangement::{PlacedSurface, arranged};
 use super::maps::{map_specification, prepared};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::{Arcs, check_ends};
@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 /// The surface of a spot in contact with one raceway; a map that is not among those stored is computed, once.
 fn near(
     scene: &Scene,
-    spot: &Spot,
+    spot: &PlacedSurface,
     side: RacewaySide,
     stored: Option<&Arc<ContactMaps>>,
     computed: &mut Vec<Arc<ContactMap>>,

@@ -2,6 +2,7 @@
 
 use super::chance::Chance;
 use super::stage::FullDisk;
+use brinell_tests::resources::scratch;
 use std::env;
 use std::fs::{self, File};
 use std::io::Write;
@@ -14,7 +15,7 @@ const SMALL: &str = "BRINELL_SMALL_DISK";
 /// Runs a test of this program in a process that has a file system of 512 kB. An error with the reason where the system
 /// does not let one make that: it takes Linux and namespaces of users.
 pub(super) fn run_on_a_small_disk(test: &str) -> Result<(), String> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("small-disk-{}", std::process::id()));
+    let folder = scratch().join(format!("small-disk-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     let unshare = |script: &str| {
         let mut command = Command::new("unshare");

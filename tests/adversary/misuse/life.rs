@@ -3,7 +3,7 @@
 use super::chance::Chance;
 use super::standard::{DISCARD, ERROR, OK, WARNING};
 use super::walker::{ALL_CATEGORIES, State, Strangers, Walker};
-use crate::host::{Call, logger};
+use crate::two::{Call, logger};
 use brinell_fmi::fmi2::*;
 use std::ffi::{CStr, CString, c_void};
 use std::ptr;
@@ -116,7 +116,7 @@ fn no_instance(w: &mut Walker, c: *mut c_void, chance: &mut Chance) {
     };
     w.tally.strange += 1;
     let untouched = number == 0.0 && state.is_null() && size == 0;
-    w.require(status == Status::Error && untouched, || format!("{status:?} from handle {c:?}, which is none"));
+    w.require(status == Status::Error && untouched, || format!("{status:?} from handle {c:?}, which is not one"));
     let lines = w.subject.lines();
     w.require(lines.is_empty(), || format!("{lines:?}"));
 }

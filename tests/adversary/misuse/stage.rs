@@ -2,15 +2,15 @@
 
 use super::chance::Chance;
 use super::disk;
-use crate::host::{Host, Resources};
-use crate::support;
+use crate::two::{Host, Resources};
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
+use brinell_tests::resources::scratch;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Unpacked resources of a scene, and what its model description would tell.
-pub(super) struct Stage {
+pub(crate) struct Stage {
     pub(super) name: &'static str,
     pub(super) resources: Arc<Resources>,
     pub(super) table: Vec<Variable>,
@@ -20,9 +20,9 @@ pub(super) struct Stage {
 }
 
 /// Rings inside and from the host, an outer ring that turns, spall, trace and none, defects inside, on a ball and in
-/// both raceways, an irregular cage, several sensors and a probe; a contact map, which instances share; a recorder as
-/// fast as one may be, so that it writes within a walk.
-pub(super) fn stages() -> Vec<Stage> {
+/// both raceways, an irregular cage, several sensors and a probe; a recorder as fast as one may be, so that it writes
+/// within a walk; and if there is one, the contact map of a scene, which instances share.
+pub(crate) fn stages(map: impl FnOnce(&str) -> Option<Vec<u8>>) -> Vec<Stage> {
     let list = [
         // The first are for instances that share names.
         ("er16k-tb1", true),
@@ -46,11 +46,10 @@ pub(super) fn stages() -> Vec<Stage> {
         Stage::new(name, Resources::edited(name, "resources", edit))
     };
     let text = bounded(include_str!("../../../scenes/er16k-tb1.toml").to_owned());
-    let mapped = Resources::new(&text, None, "resources");
-    let map = support::map_of(&brinell_scene_file::from_toml(&text).unwrap(), None).unwrap();
-    fs::write(mapped.directory.join("map.bin"), map).unwrap();
-    let mapped = Stage::new("er16k-tb1 with its contact map", mapped);
-    list.into_iter().map(stage).chain([mapped]).collect()
+    let mapped = map(&text).map(|map| {
+        Stage::new("er16k-tb1 with its contact map", Resources::new(&text, None, "resources").with_map(&map))
+    });
+    list.into_iter().map(stage).chain(mapped).collect()
 }
 
 impl Stage {
@@ -93,7 +92,7 @@ impl Stage {
         &self.table[reference as usize]
     }
 
-    /// A reference that is none.
+    /// A reference that is not one.
     pub(super) fn unknown(&self, chance: &mut Chance) -> u32 {
         *chance.pick(&[self.table.len() as u32, self.table.len() as u32 + 7, 1 << 20, i32::MAX as u32, u32::MAX])
     }
@@ -167,7 +166,7 @@ pub(super) struct Folders {
 impl Folders {
     /// Folders of the walk of this number.
     pub(super) fn new(walk: u64, full: FullDisk) -> Self {
-        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("misuse-{}-{walk}", std::process::id()));
+        let root = scratch().join(format!("misuse-{}-{walk}", std::process::id()));
         fs::create_dir_all(&root).unwrap();
         fs::write(root.join("file"), "no folder").unwrap();
         Self { root, full }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Most states that an instance keeps.
 const MOST: usize = 8;
 
-/// A handle that is none of this instance's states.
+/// a handle that is not of this instance's states.
 fn not_ours(w: &Walker, chance: &mut Chance, others: &Strangers) -> FmuState {
     let invented = chance.number() as usize;
     let address = match chance.below(6) {

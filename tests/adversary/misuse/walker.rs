@@ -5,7 +5,7 @@ use super::chance::Chance;
 use super::stage::{Folders, Stage};
 use super::standard::{self, ERROR, OK, Statuses};
 use super::tally::Tally;
-use crate::host::{Host, Line, bits};
+use crate::two::{Host, Line, bits};
 use brinell_fmi::fmi2::*;
 use std::collections::{BTreeMap, VecDeque};
 use std::fs;

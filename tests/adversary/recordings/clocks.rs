@@ -1,6 +1,7 @@
 //! Clocks: holes, stutters, digits, units.
 
-use super::{RATE, noise, read, read_as, refused, timed, times};
+use super::{RATE, SEMICOLONS, noise, read, read_with, refused, timed, times};
+use brinell_analysis::recording::TextFormat;
 use brinell_analysis::statistics::Random;
 
 #[test]
@@ -51,14 +52,14 @@ fn a_hole_is_refused_whatever_the_column_is_called_that_shows_it() {
             let times = times(RATE, 6000, from, hole).map(|t| factor * t);
             let text =
                 timed(heading, times, &samples, &|t| if factor == RATE { format!("{t:.0}") } else { seconds(t) });
-            let found = read_as("csv", text.as_bytes(), if factor == 1.0 { None } else { rate });
+            let found = read_with("csv", text.as_bytes(), if factor == 1.0 { None } else { rate }, SEMICOLONS);
             refused(found, &["a hole of", &format!("about {:.0} samples are missing", hole * RATE)]);
         }
     }
     // An angle that begins anew at each turn has no hole there.
     let angles = (0..6000).map(|i| (3600.0 * f64::from(i) / RATE) % 360.0);
     let text = timed("angle [deg];acc\n", angles, &samples, &seconds);
-    assert_eq!(read_as("csv", text.as_bytes(), rate).unwrap().samples().len(), 6000);
+    assert_eq!(read_with("csv", text.as_bytes(), rate, SEMICOLONS).unwrap().samples().len(), 6000);
 }
 
 #[test]
@@ -78,8 +79,11 @@ fn whole_recordings_are_accepted_however_their_times_are_printed() {
         let samples = noise(count);
         for (name, print) in print {
             let text = timed("time [s];acc\n", times(rate, count, count, 0.0), &samples, print);
-            let text = if name == "decimal comma" { text.replace('.', ",") } else { text };
-            let recording = read(&text).unwrap_or_else(|why| panic!("{rate} Hz, {name}: {why}"));
+            let comma = name == "decimal comma";
+            let text = if comma { text.replace('.', ",") } else { text };
+            let format = TextFormat { decimal: comma.then_some(','), ..SEMICOLONS };
+            let recording = read_with("csv", text.as_bytes(), None, format)
+                .unwrap_or_else(|why| panic!("{rate} Hz, {name}: {why}"));
             // A unit of the coarsest digit over 2 s.
             assert!((recording.rate() / rate - 1.0).abs() < 1e-5 / 2.0 + 1e-12, "{name}: {}", recording.rate());
             assert_eq!(recording.samples().len(), count);

@@ -1,66 +1,53 @@
 //! Files: numbers that can be read in two ways, the recorder's own, files cut short.
 
-use super::{RATE, SPEED, noise, npy, read_as, refused, wav};
+use super::{RATE, noise, npy, read_as, read_with, refused, wav};
 use brinell::simulation::Simulation;
-use brinell_analysis::recording::{Recording, Source, Speed};
+use brinell_analysis::recording::TextFormat;
 use std::path::PathBuf;
 
 #[test]
-fn decimal_commas_keep_their_fractions_and_what_can_be_read_in_two_ways_is_refused_by_line() {
+fn decimal_commas_keep_their_fractions_where_they_are_asked_for() {
     let values = noise(500);
     let comma =
         |digits: usize| -> String { values.iter().map(|v| format!("{v:.digits$}\n").replace('.', ",")).collect() };
     let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let format = TextFormat { delimiter: None, decimal: Some(',') };
     for digits in [2, 3, 6] {
         for (heading, separator) in
             [("", ""), ("acceleration\n", ""), ("recorder 7\nacceleration [m/s2]\n", ";"), ("acc;\n", ";")]
         {
             let text = heading.to_owned() + &comma(digits).replace('\n', &format!("{separator}\r\n"));
-            let found = read_as("csv", text.as_bytes(), Some(RATE)).unwrap();
-            for (x, v) in found.samples().iter().zip(&values) {
+            let read = read_with("csv", text.as_bytes(), Some(RATE), format).unwrap();
+            for (x, v) in read.samples().iter().zip(&values) {
                 // Printed digits, of the sample and of the mean.
                 assert!((x + mean - v).abs() < 1.01 * 10f64.powi(-(digits as i32)), "{digits} digits: {x} for {v}");
             }
+            // Read as two columns of whole numbers by default: neither is taken.
+            let why = read_as("csv", text.as_bytes(), Some(RATE)).unwrap_err();
+            assert!(why.contains("--channel") || why.contains("--delimiter"), "{why}");
         }
     }
-    let rate = Some(RATE);
-    for (text, parts) in [
-        // One number with one digit behind the comma, or two whole ones.
-        ("1,5\n2,7\n3,1\n", &["line 1", "'1,5'", "names above two columns"][..]),
-        ("12,345\n13,344\n", &["line 1", "'12,345'"]),
-        // Decimals with a nought in front, below two names; and beside a sign.
-        ("time,acc\n0,015\n1,025\n", &["line 2", "'0,015'", "line 1"]),
-        ("0,015\n1,-5\n", &["line 1", "'0,015'", "line 2", "'1,-5'"]),
-        // Commas between numbers and in them.
-        ("0,000,1,234\n0,001,1,345\n", &["line 1", "'0,000,1,234'"]),
-        // A point and a comma.
-        ("t;a\n0.001;0,5\n", &["line 2", "point", "comma"]),
-        ("a;b\n1;0,5\n2;1.234\n", &["line 3", "'1.234'", "line 2 a comma"]),
-        ("a;b\n1;1.234,5\n", &["line 2", "'1.234,5' is not a number"]),
-        // Thousands.
-        ("a;b\n1;1,234\n2;999\n3;2,345\n", &["line 2", "'1,234'", "thousands"]),
-        ("a;b\n1;1,234,567\n", &["line 2", "is not a number"]),
-    ] {
-        refused(read_as("csv", text.as_bytes(), rate), parts);
+}
+
+#[test]
+fn matlabs_files_are_read_whole_and_refused_when_they_are_cut() {
+    let samples = noise(500);
+    // Version 5: text, byte order, and one array of doubles.
+    let part = |kind: u32, data: &[u8]| {
+        let fill = vec![0; data.len().next_multiple_of(8) - data.len()];
+        [&kind.to_le_bytes(), &(data.len() as u32).to_le_bytes(), data, &fill].concat()
+    };
+    let data: Vec<u8> = samples.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let shape: Vec<u8> = [500u32, 1].iter().flat_map(|n| n.to_le_bytes()).collect();
+    let inside =
+        [part(6, &[6, 0, 0, 0, 0, 0, 0, 0]), part(5, &shape), part(1, b"X097_DE_time"), part(9, &data)].concat();
+    let bytes = [&[b' '; 124][..], b"\0\x01IM", &part(14, &inside)].concat();
+    let read = read_as("mat", &bytes, Some(RATE)).unwrap();
+    assert_eq!(read.samples().len(), 500);
+    for cut in 0..bytes.len() {
+        assert!(read_as("mat", &bytes[..cut], Some(RATE)).is_err(), "{cut} bytes");
     }
-    // Signs, names and points tell; so do blanks.
-    for (text, expected) in [
-        ("left,right\n2,5\n1,7\n", [2.0, 1.0]),
-        ("2,-5\n1,7\n", [2.0, 1.0]),
-        ("2.5,3\n1.5,4\n", [2.5, 1.5]),
-        ("2,5,\n1,7,\n", [2.0, 1.0]),
-        ("1,5 7\n0,5 7\n", [1.5, 0.5]),
-        ("-0,5\n1,5\n", [-0.5, 1.5]),
-        ("0,5\n1\n2,5\n", [0.5, 1.0]),
-        ("1,50e-3\n2,50e-3\n", [1.5e-3, 2.5e-3]),
-    ] {
-        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("commas-{}.csv", std::process::id()));
-        std::fs::write(&path, text).unwrap();
-        let source = Source { rate, speed: Speed::Constant(SPEED), signal: Some("1".to_owned()) };
-        let found = Recording::read(&path, &source).unwrap_or_else(|why| panic!("{text}: {why}"));
-        let difference = found.samples()[1] - found.samples()[0];
-        assert!((difference - (expected[1] - expected[0])).abs() < 1e-12, "{text}: {difference}");
-    }
+    refused(read_as("mat", &bytes, None), &["no sampling rate"]);
 }
 
 /// What the recorder of a scene writes in 20 ms, and its folder.

@@ -1,7 +1,9 @@
 //! Signals: pieces missing, saturation, silence, units, rates and speeds that are not the recording's.
 
 use super::machine::{scene, signal};
-use super::{RATE, SECONDS, SPEED, noise, npy, read, read_as, refused, sized, timed, times, wav};
+use super::{
+    RATE, SECONDS, SEMICOLONS, SPEED, noise, npy, read, read_as, read_with, refused, sized, timed, times, wav,
+};
 use brinell_analysis::recording::Recording;
 use brinell_analysis::sizing::{Verdict, size};
 use brinell_analysis::statistics::Random;
@@ -38,7 +40,7 @@ fn a_rate_that_contradicts_the_file_is_refused_and_without_the_files_own_nothing
     let time = times(RATE, samples.len(), samples.len(), 0.0);
     let text = timed("time [s];acc\n", time, &samples, &|t| format!("{t:.6}"));
     for rate in [RATE / 2.0, 0.98 * RATE, 1.02 * RATE, 2.0 * RATE, 51.2] {
-        refused(read_as("csv", text.as_bytes(), Some(rate)), &["the file states 51200", "1 %"]);
+        refused(read_with("csv", text.as_bytes(), Some(rate), SEMICOLONS), &["the file states 51200", "1 %"]);
     }
     refused(read_as("wav", &wav(&samples, 51_200), Some(48_000.0)), &["48000 Hz", "the file states 51200.000 Hz"]);
     // Times in milliseconds under a heading of seconds, and the other way about.
@@ -152,13 +154,14 @@ fn silent_stuck_and_broken_signals_are_refused() {
     {
         let mut lines = lines.clone();
         changed.clone_into(&mut lines[700]);
-        refused(read_as("csv", lines.join("\n").as_bytes(), Some(RATE)), &["line 701", part]);
+        refused(read_with("csv", lines.join("\n").as_bytes(), Some(RATE), SEMICOLONS), &["line 701", part]);
     }
 }
 
 #[test]
 fn a_gap_that_was_filled_with_zeros_or_the_last_value_gives_no_wrong_length() {
     let samples = whole();
+    let mut lengths = 0;
     for seconds in [5e-3, 0.5] {
         for at in [0.0, 1.0] {
             for last in [false, true] {
@@ -169,7 +172,10 @@ fn a_gap_that_was_filled_with_zeros_or_the_last_value_gives_no_wrong_length() {
                 let found = Recording::new("filled", filled, RATE, SPEED).map(|recording| sized(recording).length_deg);
                 let right = found.as_ref().is_ok_and(|f| f.is_none_or(|length| (length / 5.0 - 1.0).abs() < 0.1));
                 assert!(right || found.is_err(), "{seconds} s at {at} s: {found:?}");
+                lengths += usize::from(matches!(found, Ok(Some(_))));
             }
         }
     }
+    // The short ones hide nothing.
+    assert!(lengths >= 4, "{lengths} of 8");
 }

@@ -102,7 +102,7 @@ fn scene_of(seed: u64) -> Case {
     on_the_outer_raceway(&mut Draw::new(seed)).1
 }
 
-/// A path that leapt back up the edge was kept with a slope that is no number, and a step ended there with an error
+/// A path that leapt back up the edge was kept with a slope that is NaN, and a step ended there with an error
 /// about velocities.
 #[test]
 fn a_defect_that_no_element_can_leave_is_refused_at_once() {

@@ -1,23 +1,2 @@
-//! Text as a measured trace or topography of a raceway or an element: refused with a reason, or a surface that elements
-//! can roll over.
 #![no_main]
-
-use brinell::scene::{DefectOn, DefectShape};
-use brinell::simulation::Simulation;
-use brinell::surface::Surface;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|text: &str| {
-    let mut scene = brinell_scene_file::from_toml(brinell_fuzz::SCENES[0]).unwrap();
-    if let Some(defect) = scene.defects.first_mut() {
-        defect.shape = DefectShape::Profile("trace.csv".to_owned());
-        let element = DefectOn::Element { element: 0, tilt: 0.0 };
-        defect.on = [DefectOn::Outer, DefectOn::Inner, element][text.len() % 3];
-        let Ok(surface) = Surface::load(defect, Some(text), &scene.bearing) else { return };
-        let (first, last) = surface.extent();
-        assert!(first.is_finite() && last.is_finite() && first <= last);
-    }
-    if let Ok(simulation) = Simulation::new(scene, Some(text)) {
-        brinell_fuzz::run(simulation);
-    }
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| brinell_fuzz::run("trace", data));

@@ -10,7 +10,7 @@ use crate::statics::StaticError;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{CageState, Cells, Cubic, Drive, Model, Quadratic};
+use brinell::dynamics::parameters::{CageState, Cells, Cubic, Excitation, Model, Quadratic};
 use brinell::numerics::wrap;
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
@@ -247,17 +247,17 @@ impl Assembly {
         let count = model.element_count;
         let [shaft_load, housing_load] = self.loads.map(|load| load.map(Quadratic::constant));
         let frames = [self.angles[1], self.angles[2], model.spin_with_cage(cage_angle - self.angles[0])];
-        let mut drive = Drive { shaft_load, housing_load, ..Drive::standing(cage_angle, frames) };
+        let mut excitation = Excitation { shaft_load, housing_load, ..Excitation::standing(cage_angle, frames) };
         if let Some(seat) = &self.seat {
-            let (_, state) = self.equilibrium(seat, &drive)?;
-            let position = seat.shaft_state(&drive, 0.0, &state).position;
-            drive.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
+            let (_, state) = self.equilibrium(seat, &excitation)?;
+            let position = seat.shaft_state(&excitation, 0.0, &state).position;
+            excitation.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
         }
-        let (cells, state) = self.equilibrium(model, &drive)?;
+        let (cells, state) = self.equilibrium(model, &excitation)?;
         let mut forces = Forces::of(model);
-        model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let mut jacobian = Jacobian::new(model);
-        model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);
+        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);
         let contacts = &forces.contacts;
         let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
         let weight = model.element_mass * model.gravity.norm();
@@ -280,11 +280,11 @@ impl Assembly {
         })
     }
 
-    fn equilibrium(&self, model: &Model, drive: &Drive) -> Result<(Cells, Vec<f64>), StaticError> {
+    fn equilibrium(&self, model: &Model, excitation: &Excitation) -> Result<(Cells, Vec<f64>), StaticError> {
         let mut state = vec![0.0; model.layout.len];
-        let found = model.equilibrium_with_cells(drive, &mut state);
+        let found = model.equilibrium_with_cells(excitation, &mut state);
         let cells = found.map_err(|cause: EquilibriumError| StaticError::Equilibrium {
-            cage_angle_deg: drive.cage_start.to_degrees(),
+            cage_angle_deg: excitation.cage_start.to_degrees(),
             load: self.loads[0],
             cause,
         })?;

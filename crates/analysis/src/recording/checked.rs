@@ -5,6 +5,7 @@
 //! every sample. Its rate and speed are then those of the mean speed. Invalid where the speed changes much within one
 //! turn: resonances keep their frequency in time, not in angle, so that a run-up is smeared.
 
+use super::csv::TextFormat;
 use super::error::SizingError;
 use super::file::Table;
 use crate::statistics;
@@ -42,8 +43,10 @@ pub struct Source {
     pub rate: Option<f64>,
     /// Shaft speed.
     pub speed: Speed,
-    /// Column of the signal, by name or number; without it, the one that its name gives away.
+    /// Column of the signal, by name or number; without it, the only one that can be one.
     pub signal: Option<String>,
+    /// How a text's numbers are written.
+    pub text: TextFormat,
 }
 
 /// A recording of acceleration, in any unit, at constant shaft speed.
@@ -132,7 +135,7 @@ impl Recording {
         Self::new(name, uniform.collect(), rate, rate / samples_per_turn)
     }
 
-    /// Reads a `.csv`, `.txt`, `.npy` or `.wav` file.
+    /// Reads a `.csv`, `.txt`, `.npy`, `.npz`, `.mat` or `.wav` file.
     ///
     /// # Errors
     /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of
@@ -147,7 +150,7 @@ impl Recording {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn of_file(path: &Path, bytes: &[u8], source: &Source) -> Result<Self, SizingError> {
-        let table = Table::read(path, bytes)?;
+        let table = Table::read(path, bytes, source.text)?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
         // Before it is compared: 0 is no other rate, but none.
@@ -159,7 +162,11 @@ impl Recording {
             (given, stated) => given.or(stated),
         };
         let rate = rate.ok_or_else(|| refuse("the file states no sampling rate: give one".to_owned()))?;
-        let signal = table.signal(source.signal.as_deref()).map_err(refuse)?;
+        let beside = match &source.speed {
+            Speed::Constant(_) => None,
+            Speed::Tachometer(column, _) | Speed::Column(column) => Some(&**column),
+        };
+        let signal = table.signal(source.signal.as_deref(), beside.as_slice()).map_err(refuse)?;
         match &source.speed {
             Speed::Constant(speed) => Self::new(&name, signal, rate, *speed),
             Speed::Tachometer(column, pulses) => {
@@ -319,7 +326,7 @@ mod tests {
         let recording = Recording::with_tachometer("made", &signal, &pulses, 1, rate).unwrap();
         // Ends at the last pulse: the mean speed differs from 10 Hz by what of the wander is left over.
         assert!((recording.speed() - 10.0).abs() < 0.05, "{}", recording.speed());
-        // Every turn has 20 periods now: the signal is the same one turn later but for the speed's change within a
+        // Every turn has 20 periods now: the signal is the same one turn later except for the speed's change within a
         // turn.
         let turn = recording.rate() / recording.speed();
         let x = recording.samples();
@@ -362,7 +369,7 @@ mod tests {
     fn the_cubic_passes_through_samples_and_follows_a_parabola() {
         let samples: Vec<f64> = (0..10).map(|i| f64::from(i * i)).collect();
         assert_eq!(value_at(&samples, 4.0), 16.0);
-        // Exact for parabolas but for rounding.
+        // Exact for parabolas, except for rounding.
         assert!((value_at(&samples, 4.5) - 20.25).abs() < 1e-12);
         assert_eq!(value_at(&samples, -0.1), 0.0);
         assert_eq!(value_at(&samples, 9.1), 0.0);

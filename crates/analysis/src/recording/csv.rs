@@ -1,175 +1,100 @@
-//! Recordings as text: numbers in columns.
+//! Recordings as text: numbers in columns, parted and with decimals as a [`TextFormat`] says. Nothing is guessed: a
+//! text that does not read so is refused with the line and the options that would say how it is written.
 //!
-//! Columns are parted by semicolons, tabs, commas or blanks, whichever of these, in this order, the first row of
-//! numbers has; where that is not the comma, a comma in a number is its decimal point. Lines before the first that
-//! begins with a number are a preamble, and the last of them with as many cells is the heading. Lines that begin with
-//! # or % are comments.
-//!
-//! What can be read in two ways is refused: points and commas in numbers of one file, commas and blanks that may part
-//! thousands, and `1,5` alone on its line, unless other lines tell whether it is one number or two.
+//! Lines before the first that consists of numbers are a preamble, and the last of them with as many cells is the
+//! heading. Lines that begin with # are comments.
+
+use super::array::Columns;
 
 /// Lines of preamble after which the file is taken for something else.
 const LONGEST_PREAMBLE: usize = 100;
 
-/// Headings, empty where there are none, and columns.
-pub(crate) type Columns = (Vec<String>, Vec<Vec<f64>>);
+/// How a text's numbers are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TextFormat {
+    /// What stands between columns; a blank is any number of blanks and tabs. Left out: a semicolon where the decimal
+    /// sign is a comma, else a blank in `.txt` and a comma in other files.
+    pub delimiter: Option<char>,
+    /// Decimal sign, a point or a comma; left out, a point.
+    pub decimal: Option<char>,
+}
 
-/// A line and its number, from 1.
-type Line<'a> = (usize, &'a str);
-
-/// The columns of a text.
-pub(crate) fn columns(text: &str) -> Result<Columns, String> {
-    let lines: Vec<Line> = text
-        .lines()
-        .enumerate()
-        .map(|(i, line)| (i + 1, line.trim_start_matches('\u{feff}').trim()))
-        .filter(|(_, line)| !line.is_empty() && !line.starts_with(['#', '%']))
-        .collect();
-    let first = lines
-        .iter()
-        .take(LONGEST_PREAMBLE)
-        .position(|(_, line)| begins_with_number(line))
-        .ok_or_else(|| format!("no line of numbers among the first {LONGEST_PREAMBLE}"))?;
-    let (preamble, rows) = lines.split_at(first);
-    let delimiter = delimiter(preamble, rows)?;
-    let width = cells(rows[0].1, delimiter).len();
-    let heading = preamble.iter().rev().map(|(_, line)| cells(line, delimiter)).find(|c| c.len() == width);
-    if delimiter == ' ' && width > 1 && heading.is_none() {
-        thousands_by_blanks(rows)?;
-    }
-    let names = heading.unwrap_or_default().into_iter().map(|name| name.trim_matches('"').trim().to_owned()).collect();
-    let mut columns = vec![Vec::with_capacity(rows.len()); width];
-    let mut decimals = Decimals::default();
-    for &(number, line) in rows {
-        let cells = cells(line, delimiter);
-        if cells.len() != width {
-            return Err(format!("line {number}: {} columns, the first row of numbers has {width}", cells.len()));
-        }
-        for (column, cell) in columns.iter_mut().zip(cells) {
-            if delimiter != ',' {
-                decimals.see(cell, number)?;
+impl TextFormat {
+    /// Delimiter and decimal sign of a file that ends so.
+    fn signs(self, ending: &str) -> Result<(u8, char), String> {
+        let decimal = self.decimal.unwrap_or('.');
+        let by_ending = if ending == "txt" { ' ' } else { ',' };
+        let delimiter = self.delimiter.unwrap_or(if decimal == ',' { ';' } else { by_ending });
+        let byte = u8::try_from(delimiter).ok().filter(|&byte| byte.is_ascii() && !byte.is_ascii_alphanumeric());
+        match byte {
+            _ if !matches!(decimal, '.' | ',') => Err(format!("decimal sign '{decimal}': it is a point or a comma")),
+            Some(byte) if delimiter != decimal && !matches!(byte, b'-' | b'+' | b'.' | b'"' | b'#') => {
+                Ok((byte, decimal))
             }
-            column.push(value(cell, delimiter).ok_or_else(|| format!("line {number}: '{cell}' is not a number"))?);
+            _ => Err(format!(
+                "delimiter '{delimiter}': it is a comma, a semicolon, a tab, a blank or another sign that no number \
+                 has (decimal sign '{decimal}')"
+            )),
         }
     }
-    decimals.check()?;
+}
+
+/// The columns of a text in a file that ends so.
+pub(crate) fn columns(text: &str, ending: &str, format: TextFormat) -> Result<Columns, String> {
+    let (delimiter, decimal) = format.signs(ending)?;
+    let how = format!(
+        "columns are parted by {} and decimals by '{decimal}' unless --delimiter and --decimal say otherwise",
+        if delimiter == b' ' { "blanks".to_owned() } else { format!("'{}'", char::from(delimiter).escape_default()) }
+    );
+    let text = text.trim_start_matches('\u{feff}');
+    let (text, delimiter) = if delimiter == b' ' { (&*tabs_for_blanks(text), b'\t') } else { (text, delimiter) };
+    let mut reader = csv::ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).delimiter(delimiter).comment(Some(b'#')).trim(csv::Trim::All);
+    let (mut preamble, mut columns) = (Vec::<csv::StringRecord>::new(), Vec::<Vec<f64>>::new());
+    let mut names = Vec::new();
+    for record in reader.from_reader(text.as_bytes()).into_records() {
+        let record = record.map_err(|why| why.to_string())?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let cells = cells(&record);
+        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| number(cell, decimal)).collect();
+        if columns.is_empty() {
+            let Some(first) = numbers.filter(|numbers| !numbers.is_empty()) else {
+                preamble.push(record);
+                if preamble.len() > LONGEST_PREAMBLE {
+                    break;
+                }
+                continue;
+            };
+            columns.extend(first.into_iter().map(|value| vec![value]));
+            let heading = preamble.iter().rev().map(|line| self::cells(line)).find(|line| line.len() == cells.len());
+            names = heading.unwrap_or_default().into_iter().map(str::to_owned).collect();
+            continue;
+        }
+        if cells.len() != columns.len() {
+            let (count, width) = (cells.len(), columns.len());
+            return Err(format!("line {line}: {count} columns, the first row of numbers has {width}; {how}"));
+        }
+        let numbers = numbers.ok_or_else(|| {
+            let cell = cells.iter().find(|cell| number(cell, decimal).is_none()).copied().unwrap_or_default();
+            format!("line {line}: '{cell}' is not a number; {how}")
+        })?;
+        columns.iter_mut().zip(numbers).for_each(|(column, value)| column.push(value));
+    }
+    if columns.is_empty() {
+        let last = text.lines().filter(|line| !line.trim().is_empty()).take(LONGEST_PREAMBLE).last();
+        let last = last.map_or(String::new(), |line| format!(", the last of them '{line:.60}'"));
+        return Err(format!("no line of numbers among the first {LONGEST_PREAMBLE}{last}; {how}"));
+    }
     Ok((names, columns))
 }
 
-/// Refuses rows like `2 261,5` that no heading tells to be two numbers: blanks may part thousands.
-fn thousands_by_blanks(rows: &[Line]) -> Result<(), String> {
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    let group = |cell: &str| {
-        let whole = cell.split([',', '.']).next().unwrap_or_default();
-        whole.len() == 3 && digits(whole)
-    };
-    let grouped = |line: &str| {
-        let mut cells = line.split_whitespace();
-        let first = cells.next().unwrap_or_default().trim_start_matches(['-', '+']);
-        (1..=3).contains(&first.len()) && digits(first) && cells.all(group)
-    };
-    if !rows.iter().all(|(_, line)| grouped(line)) {
-        return Ok(());
-    }
-    let (number, line) = rows[0];
-    Err(format!(
-        "line {number}: '{line}': blanks may part thousands or columns: write numbers without them, or name the columns"
-    ))
+/// The same text with one tab for each run of blanks.
+fn tabs_for_blanks(text: &str) -> String {
+    text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join("\t") + "\n").collect()
 }
 
-fn begins_with_number(line: &str) -> bool {
-    let end = line.find([';', '\t', ' ']).unwrap_or(line.len());
-    // With a comma the cell may end there, or be a number with a decimal comma.
-    let cell = line[..end].trim_end_matches(',');
-    let mut parts = cell.split(',');
-    let whole = parts.next().unwrap_or_default();
-    // Some leave the nought before the comma out.
-    let fraction_alone =
-        matches!(whole, "" | "-" | "+") && parts.next().is_some_and(|part| part.parse::<u64>().is_ok());
-    whole.parse::<f64>().is_ok() || fraction_alone
-}
-
-/// What parts the columns. A blank also stands for one column alone.
-fn delimiter(preamble: &[Line], rows: &[Line]) -> Result<char, String> {
-    let first = rows[0].1;
-    if let Some(delimiter) = [';', '\t'].into_iter().find(|&d| first.contains(d)) {
-        return Ok(delimiter);
-    }
-    // Every comma inside a number, and blanks between them.
-    let parted_by_blanks = |line: &str| line.contains(' ') && line.split_whitespace().all(is_decimal);
-    if !first.contains(',') || parted_by_blanks(first) {
-        return Ok(' ');
-    }
-    one_meaning_of_commas(rows)?;
-    if one_number_a_line(preamble, rows)? { Ok(' ') } else { Ok(',') }
-}
-
-/// A number with at most one comma, and digits on both sides of it.
-fn is_decimal(cell: &str) -> bool {
-    match cell.split_once(',') {
-        None => cell.parse::<f64>().is_ok(),
-        Some((whole, fraction)) => {
-            whole.ends_with(|c: char| c.is_ascii_digit())
-                && fraction.starts_with(|c: char| c.is_ascii_digit())
-                && !fraction.contains(',')
-                && format!("{whole}.{fraction}").parse::<f64>().is_ok()
-        }
-    }
-}
-
-/// Refuses rows like `0,000,1,25`, in which commas part both numbers and their decimals: nobody prints a number as 000.
-fn one_meaning_of_commas(rows: &[Line]) -> Result<(), String> {
-    let decimals = |cell: &str| cell.len() > 1 && cell.starts_with('0') && cell.bytes().all(|b| b.is_ascii_digit());
-    let twice =
-        |line: &str| !line.contains('.') && line.matches(',').count() > 1 && line.split(',').skip(1).any(decimals);
-    match rows.iter().find(|(_, line)| twice(line)) {
-        None => Ok(()),
-        Some((number, line)) => Err(format!(
-            "line {number}: '{line}': commas seem to part numbers and their decimals alike: part columns by \
-             semicolons, or write decimal points"
-        )),
-    }
-}
-
-/// Whether rows like `0,125` are one number with a decimal comma each, or numbers parted by commas.
-fn one_number_a_line(preamble: &[Line], rows: &[Line]) -> Result<bool, String> {
-    let last = rows[rows.len() - 1].0;
-    let (mut one, mut several) = (None, preamble.iter().rev().find(|(_, line)| cells(line, ',').len() == 2).copied());
-    for &(number, line) in rows {
-        let (whole, rest) = line.split_once(',').unwrap_or((line, ""));
-        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-        let (mantissa, exponent) = rest.split_once(['e', 'E']).unwrap_or((rest, "0"));
-        let unlike_decimals = !digits(mantissa) || exponent.parse::<i32>().is_err() || whole.contains(['.', 'e', 'E']);
-        // 05 or -0 as a number of its own, or 123e4, are nowhere printed. The last line may be cut off.
-        let like_decimals = (mantissa.len() > 1 && (mantissa.starts_with('0') || mantissa != rest))
-            || matches!(whole, "" | "-" | "+" | "-0" | "+0")
-            || (rest.is_empty() && number != last && is_decimal(line));
-        if line.contains(',') && unlike_decimals {
-            several = several.or(Some((number, line)));
-        } else if like_decimals {
-            one = one.or(Some((number, line)));
-        }
-    }
-    match (one, several) {
-        (Some(_), None) => Ok(true),
-        (None, Some(_)) => Ok(false),
-        (None, None) => Err(format!(
-            "line {}: '{}' is one number with a decimal comma, or two: put names above two columns, or write decimal \
-             points",
-            rows[0].0, rows[0].1
-        )),
-        (Some((number, line)), Some((other, unlike))) => Err(format!(
-            "line {number}: '{line}' looks like one number with a decimal comma, line {other}, '{unlike}', like \
-             several: part columns by semicolons, or write decimal points"
-        )),
-    }
-}
-
-fn cells(line: &str, delimiter: char) -> Vec<&str> {
-    if delimiter == ' ' {
-        return line.split_whitespace().collect();
-    }
-    let mut cells: Vec<&str> = line.split(delimiter).map(str::trim).collect();
+fn cells(record: &csv::StringRecord) -> Vec<&str> {
+    let mut cells: Vec<&str> = record.iter().collect();
     // Some programs end every line with a delimiter.
     if cells.len() > 1 && cells.last() == Some(&"") {
         cells.pop();
@@ -177,99 +102,69 @@ fn cells(line: &str, delimiter: char) -> Vec<&str> {
     cells
 }
 
-fn value(cell: &str, delimiter: char) -> Option<f64> {
-    let decimal_comma = delimiter != ',' && cell.contains(',');
-    if decimal_comma { cell.replace(',', ".").parse().ok() } else { cell.parse().ok() }
-}
-
-/// How the numbers of a file have their decimals, where commas do not part columns.
-#[derive(Debug, Default)]
-struct Decimals {
-    /// First line with a decimal point.
-    point: Option<usize>,
-    /// First line with a comma.
-    comma: Option<usize>,
-    /// First number with a comma, while all of them might be whole ones with thousands parted.
-    thousands: Option<(usize, String)>,
-    /// Whether a number showed that commas are decimal.
-    decimal: bool,
-}
-
-impl Decimals {
-    fn see(&mut self, cell: &str, line: usize) -> Result<(), String> {
-        if let Some((whole, fraction)) = cell.split_once(',') {
-            self.comma.get_or_insert(line);
-            let whole = whole.trim_start_matches(['-', '+']);
-            let parts_thousands = (1..=3).contains(&whole.len()) && !whole.starts_with('0') && fraction.len() == 3;
-            self.decimal |= !parts_thousands;
-            if self.thousands.is_none() && !self.decimal {
-                self.thousands = Some((line, cell.to_owned()));
-            }
-        } else if cell.contains('.') {
-            self.point.get_or_insert(line);
-        }
-        match (self.point, self.comma) {
-            (Some(point), Some(comma)) => Err(format!(
-                "line {line}: '{cell}': line {point} has a decimal point and line {comma} a comma in a number: one of \
-                 both is needed"
-            )),
-            _ => Ok(()),
-        }
+/// A number with this decimal sign and no other.
+fn number(cell: &str, decimal: char) -> Option<f64> {
+    if decimal == '.' {
+        return cell.parse().ok();
     }
-
-    fn check(&self) -> Result<(), String> {
-        match &self.thousands {
-            Some((line, cell)) if !self.decimal => Err(format!(
-                "line {line}: the comma in '{cell}' is decimal or parts thousands, and no other line tells: write \
-                 decimal points"
-            )),
-            _ => Ok(()),
-        }
-    }
+    if cell.contains('.') { None } else { cell.replace(decimal, ".").parse().ok() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn with(delimiter: char, decimal: char) -> TextFormat {
+        TextFormat { delimiter: Some(delimiter), decimal: Some(decimal) }
+    }
+
     #[test]
-    fn delimiters_preambles_headings_and_decimal_commas_are_understood() {
+    fn delimiters_preambles_headings_and_decimal_commas_are_read_as_they_are_given() {
+        let default = TextFormat::default();
         let expected = vec![vec![0.0, 0.5], vec![1.5, -2.0]];
-        for text in [
-            "time,acc\n0.0,1.5\n0.5,-2.0\n",
-            "\u{feff}time;acc\r\n0,0;1,5\r\n0,5;-2,0\r\n",
-            "recorder 7\nrate: fast\n\"time\"\t\"acc\"\n0\t1.5\n0.5\t-2\n",
-            "# comment\ntime acc\n0  1.5\n 0.5 -2e0\n",
-            "time,acc,\n0.0,1.5,\n0.5,-2.0,\n",
+        for (text, ending, format) in [
+            ("time,acc\n0.0,1.5\n0.5,-2.0\n", "csv", default),
+            ("\u{feff}time;acc\r\n0,0;1,5\r\n0,5;-2,0\r\n", "csv", TextFormat { delimiter: None, decimal: Some(',') }),
+            ("recorder 7\nrate: fast\n\"time\"\t\"acc\"\n0\t1.5\n0.5\t-2\n", "csv", with('\t', '.')),
+            ("# comment\ntime acc\n0  1.5\n 0.5 -2e0\n", "txt", default),
+            ("time\tacc\n0\t 1.5\n0.5\t-2e0\n", "txt", default),
+            ("time,acc,\n0.0,1.5,\n0.5,-2.0,\n", "csv", default),
+            ("time,acc\n\"0,0\",\"1,5\"\n\"0,5\",\"-2,0\"\n", "csv", with(',', '.')),
         ] {
-            let (names, found) = columns(text).unwrap();
-            assert_eq!((names, found), (vec!["time".to_owned(), "acc".to_owned()], expected.clone()), "{text}");
+            let read = columns(text, ending, format);
+            if text.contains("\"0,0\"") {
+                assert!(read.is_err(), "decimal commas are not read as points");
+                continue;
+            }
+            assert_eq!(read.unwrap(), (vec!["time".to_owned(), "acc".to_owned()], expected.clone()), "{text}");
         }
-        assert_eq!(columns("1.5\n2.5\n").unwrap(), (Vec::new(), vec![vec![1.5, 2.5]]));
-        assert_eq!(columns("0,5\t1\n1,5\t2\n").unwrap().1, [[0.5, 1.5], [1.0, 2.0]]);
+        assert_eq!(columns("1.5\n2.5\n", "csv", default).unwrap(), (Vec::new(), vec![vec![1.5, 2.5]]));
+        assert_eq!(columns("0,5\t1\n1,5\t2\n", "csv", with('\t', ',')).unwrap().1, [[0.5, 1.5], [1.0, 2.0]]);
     }
 
     #[test]
-    fn blanks_that_may_part_thousands_are_refused() {
-        for text in ["acc\n-2 261,5\n-8 779,5\n", "2 261\n8 779\n", "1 234 567,5\n-2 345 678,5\n"] {
-            assert!(columns(text).is_err_and(|e| e.contains("line") && e.contains("part thousands")), "{text}");
+    fn what_does_not_read_as_it_is_said_to_be_written_is_refused_by_line_with_the_options() {
+        let refused = |text: &str, format| columns(text, "csv", format).unwrap_err();
+        for (text, format, parts) in [
+            ("1\n2\nx\n", TextFormat::default(), &["line 3", "'x'", "--delimiter"][..]),
+            ("a,b\n1,2\n3\n", TextFormat::default(), &["line 3", "1 columns"]),
+            ("time;acc\n0.0;1.5\n", TextFormat::default(), &["'0.0;1.5'", "parted by ','", "--delimiter"]),
+            ("time;acc\n0,0;1,5\n", with(';', '.'), &["'0,0;1,5'", "decimals by '.'", "--decimal"]),
+            // A point where thousands may be parted by it.
+            ("a;b\n1;0,5\n2;1.234\n", with(';', ','), &["line 3", "'1.234'"]),
+            ("", TextFormat::default(), &["no line of numbers"]),
+            ("only words\nand more\n", TextFormat::default(), &["no line of numbers"]),
+            ("1\n", with(',', ','), &["delimiter ','"]),
+            ("1\n", with(';', ';'), &["decimal sign ';'"]),
+            ("1\n", with('é', '.'), &["delimiter 'é'"]),
+        ] {
+            let why = refused(text, format);
+            assert!(parts.iter().all(|part| why.contains(part)), "{text}: {why}");
         }
-        // Names, or numbers that no groups of three are, tell that they are columns.
-        for text in ["time acc\n1 234\n2 345\n", "0 1234,5\n1 2345,5\n", "0,5 234\n1,5 345\n", "1000 234\n1001 345\n"] {
-            assert_eq!(columns(text).unwrap().1.len(), 2, "{text}");
-        }
-    }
-
-    #[test]
-    fn broken_text_is_refused_by_line() {
-        assert!(columns("1\n2\nx\n").is_err_and(|e| e.contains("line 3") && e.contains("'x'")));
-        assert!(columns("a,b\n1,2\n3\n").is_err_and(|e| e.contains("line 3") && e.contains("1 columns")));
-        assert!(columns("").is_err());
-        assert!(columns("only words\nand more\n").is_err());
     }
 
     #[test]
     fn not_a_number_is_read_as_such_and_left_to_the_recordings_check() {
-        assert!(columns("1\nNaN\n3\n").unwrap().1[0][1].is_nan());
+        assert!(columns("1\nNaN\n3\n", "csv", TextFormat::default()).unwrap().1[0][1].is_nan());
     }
 }

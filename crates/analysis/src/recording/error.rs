@@ -147,7 +147,7 @@ pub enum SizingError {
     Tachometer {
         /// The recording.
         name: String,
-        /// Rising edges found.
+        /// Rising edges.
         pulses: usize,
         /// Fewest pulses.
         limit: usize,

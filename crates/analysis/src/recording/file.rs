@@ -1,19 +1,19 @@
 //! A recording's file as named columns, and which of them is what.
 //!
-//! Text (`csv`), NumPy (`npy`) and WAV, which
-//! goes through `hound`. Columns are chosen by name or by number from 1. Left to itself, the signal is the column
-//! whose name begins with `sensor.acceleration` or, of several sensors, `sensor[1].acceleration`, else with `acc`,
-//! `vib` or `signal`, else the only one that does not count time or samples, else, where columns have no names, the
-//! first of those.
+//! Text, NumPy's and MATLAB's files, and WAV, which goes through `hound`. Columns are chosen by name or by number
+//! from 1. Left to itself, the signal is the only column whose name begins with `sensor.acceleration`, else with
+//! `sensor[`, `acc`, `vib` or `signal`, else the only one that does not count time or samples. Where several are left,
+//! none is taken.
 //!
 //! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
 //! rises like time. It must be even ([`sampling_times`]). A column of any other name that
 //! ticks from sample to sample, as counters and angles do, must have no holes.
 
+use super::array::deinterleaved;
+use super::csv::TextFormat;
 use super::error::SizingError;
-use super::interleaving::deinterleaved;
 use super::sampling_times::{self, Clock, Uneven};
-use super::{csv, npy};
+use super::{csv, hdf5, mat, npy};
 use std::path::Path;
 
 /// Names of time.
@@ -39,6 +39,10 @@ const TIME_UNITS: [(&str, f64); 16] = [
     ("\u{fffd}s", 1e-6),
     ("h", 3600.0),
 ];
+/// Files that are read.
+const READ: &str = ".csv, .txt, .npy, .npz, .mat or .wav";
+/// How the names of signals begin; where one is in use, those behind it are not.
+const SIGNALS: [&str; 5] = ["sensor.acceleration", "sensor[", "acc", "vib", "signal"];
 /// Most columns that a message lists.
 const LISTED: usize = 100;
 
@@ -59,15 +63,22 @@ impl Table {
     ///
     /// # Errors
     /// Bytes that are not what the path's ending says, times that are not even.
-    pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Self, SizingError> {
+    pub(crate) fn read(path: &Path, bytes: &[u8], text: TextFormat) -> Result<Self, SizingError> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
         let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
-        let (names, columns) = match ending.as_str() {
-            "csv" | "txt" => csv::columns(&String::from_utf8_lossy(bytes)).map_err(refuse)?,
-            "npy" => npy::columns(bytes).map_err(refuse)?,
+        let columns = match ending.as_str() {
+            "csv" | "txt" => csv::columns(&String::from_utf8_lossy(bytes), &ending, text),
+            "npy" => npy::columns(bytes),
+            "npz" => npy::archive(bytes),
+            "mat" if hdf5::is(bytes) => hdf5::columns(bytes),
+            "mat" => mat::columns(bytes),
             "wav" => return wav(bytes).map_err(refuse),
-            _ => return Err(refuse(format!("ending '{ending}': recordings are .csv, .txt, .npy or .wav"))),
+            _ => Err(format!("ending '{ending}': recordings are {READ}")),
         };
+        let (names, columns) = columns.map_err(refuse)?;
+        if columns.is_empty() {
+            return Err(refuse("no signal: it holds no array of numbers".to_owned()));
+        }
         Self::new(names, columns).map_err(|(column, why)| SizingError::Times {
             path: path.to_owned(),
             column,
@@ -95,38 +106,43 @@ impl Table {
         Ok(Self { names, columns, clocks, rate })
     }
 
-    /// The column of this name or number; without either, the one that is a signal by itself.
-    pub(crate) fn signal(&self, choice: Option<&str>) -> Result<Vec<f64>, String> {
+    /// The column of this name or number; without either, the only one that can be a signal, and is none of `others`.
+    pub(crate) fn signal(&self, choice: Option<&str>, others: &[&str]) -> Result<Vec<f64>, String> {
         if let Some(choice) = choice {
             return self.column(choice).map(|(_, column)| column.to_vec());
         }
-        let begins = |with: &str| self.names.iter().position(|name| bare(name).starts_with(with));
-        let by_name =
-            ["sensor.acceleration", "sensor[1].acceleration", "acc", "vib", "signal"].into_iter().find_map(begins);
-        let mut others = (0..self.columns.len()).filter(|&i| !self.clocks[i] || self.columns.len() == 1);
-        let found = by_name.or_else(|| {
-            let first = others.next();
-            if self.names.is_empty() || others.next().is_none() { first } else { None }
-        });
-        match found {
-            Some(found) => Ok(self.columns[found].clone()),
-            None => Err(format!("{}: which is the signal? Choose one", self.listed())),
+        let others: Vec<usize> = others.iter().filter_map(|other| self.position(other)).collect();
+        let left = || (0..self.columns.len()).filter(|i| !others.contains(i));
+        let begin = |with: &str| -> Vec<usize> {
+            left().filter(|&i| self.names.get(i).is_some_and(|name| bare(name).starts_with(with))).collect()
+        };
+        let named = SIGNALS.into_iter().map(begin).find(|columns| !columns.is_empty());
+        let no_clocks = || left().filter(|&i| !self.clocks[i] || self.columns.len() == 1).collect();
+        match named.unwrap_or_else(no_clocks)[..] {
+            [one] => Ok(self.columns[one].clone()),
+            _ => Err(format!("{}: which is the signal? Choose one by name or number with --channel", self.listed())),
         }
     }
 
     /// Heading and values of the column of this name or number.
     pub(crate) fn column(&self, choice: &str) -> Result<(&str, &[f64]), String> {
+        let at = self.position(choice).ok_or_else(|| format!("no column '{choice}' among {}", self.listed()))?;
+        Ok((self.names.get(at).map_or("", String::as_str), &self.columns[at]))
+    }
+
+    fn position(&self, choice: &str) -> Option<usize> {
         let wanted = choice.trim().to_lowercase();
         let same = |name: &String| name.to_lowercase() == wanted || bare(name) == wanted;
         let number = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|&i| i < self.columns.len());
-        let found = self.names.iter().position(same).or_else(number);
-        let found = found.ok_or_else(|| format!("no column '{choice}' among {}", self.listed()))?;
-        Ok((self.names.get(found).map_or("", String::as_str), &self.columns[found]))
+        self.names.iter().position(same).or_else(number)
     }
 
     fn listed(&self) -> String {
         match (&self.names[..], self.columns.len()) {
-            ([], count) => format!("{count} columns without names"),
+            ([], count) => {
+                let first: Vec<String> = self.columns.iter().take(LISTED).map(|column| column[0].to_string()).collect();
+                format!("{count} columns without names, the first row {}", first.join(" "))
+            }
             (names, count) if count > LISTED => format!("{count} columns from {}", names[..LISTED].join(", ")),
             (names, _) => format!("columns {}", names.join(", ")),
         }
@@ -142,7 +158,11 @@ fn time_column<'a>(names: &'a [String], columns: &[Vec<f64>]) -> Option<(usize, 
     }
     let called: Vec<(usize, &str)> =
         names.iter().enumerate().filter_map(|(i, name)| Some((i, unit_of_time(name)?))).collect();
-    let by_name = called.iter().find(|&&(i, _)| rises(i)).or(called.first()).copied();
+    // A clock that goes back is refused, and no signal. Accelerations of a well-known collection are called
+    // X097_DE_time.
+    let signal = |i: usize| names[i].to_lowercase().ends_with("_time");
+    let clock = called.iter().find(|&&(i, _)| rises(i)).or(called.iter().find(|&&(i, _)| !signal(i)));
+    let by_name = clock.copied();
     by_name.or_else(|| {
         // Some programs write units alone above the numbers.
         let mut units = names.iter().enumerate().map(|(i, name)| (i, unit(name).unwrap_or(name)));
@@ -194,7 +214,8 @@ mod tests {
     use super::*;
 
     fn csv(text: &str) -> Table {
-        let (names, columns) = csv::columns(text).unwrap();
+        let ending = if text.contains(',') { "csv" } else { "txt" };
+        let (names, columns) = csv::columns(text, ending, TextFormat::default()).unwrap();
         Table::new(names, columns).unwrap()
     }
 
@@ -202,26 +223,30 @@ mod tests {
     fn the_signal_is_found_by_name_and_time_gives_the_rate() {
         let table =
             csv("time [s],cage.angle [rad],sensor.acceleration [m/s2],tacho\n0.0,9,1,0\n0.5,9,2,5\n1.0,9,3,0\n");
-        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![1.0, 2.0, 3.0], Some(2.0)));
+        assert_eq!((table.signal(None, &[]).unwrap(), table.rate), (vec![1.0, 2.0, 3.0], Some(2.0)));
         assert_eq!(table.column("tacho").unwrap(), ("tacho", [0.0, 5.0, 0.0].as_slice()));
         assert_eq!(table.column("Cage.Angle").unwrap().1, [9.0; 3]);
-        assert_eq!(table.signal(Some("4")).unwrap(), [0.0, 5.0, 0.0]);
+        assert_eq!(table.signal(Some("4"), &[]).unwrap(), [0.0, 5.0, 0.0]);
         assert_eq!(csv("Time (ms),x\n0,7\n1,8\n2,9\n").rate, Some(1e3));
     }
 
     #[test]
     fn a_first_column_without_name_that_rises_evenly_is_time() {
         let table = csv("0.0 5\n0.25 6\n0.5 3\n");
-        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![5.0, 6.0, 3.0], Some(4.0)));
+        assert_eq!((table.signal(None, &[]).unwrap(), table.rate), (vec![5.0, 6.0, 3.0], Some(4.0)));
         // Alone it is a signal, and one that goes up and down is one too.
-        assert_eq!(csv("0.0\n0.25\n0.5\n").signal(None).unwrap(), [0.0, 0.25, 0.5]);
-        assert_eq!(csv("1 5\n-1 6\n2 3\n").signal(None).unwrap(), [1.0, -1.0, 2.0]);
+        assert_eq!(csv("0.0\n0.25\n0.5\n").signal(None, &[]).unwrap(), [0.0, 0.25, 0.5]);
+        assert!(csv("1 5\n-1 6\n2 3\n").signal(None, &[]).is_err_and(|why| why.contains("the first row 1 5")));
     }
 
     #[test]
     fn a_choice_that_cannot_be_met_lists_the_columns() {
         let table = csv("left,right\n1,2\n3,4\n");
-        assert!(table.signal(None).is_err_and(|e| e.contains("left, right")));
+        assert!(table.signal(None, &[]).is_err_and(|e| e.contains("left, right") && e.contains("--channel")));
+        // Beside a tachometer one signal is left; of two accelerations none is taken.
+        assert_eq!(table.signal(None, &["right"]).unwrap(), [1.0, 3.0]);
+        assert!(csv("acc x,acc y\n1,2\n3,4\n").signal(None, &[]).is_err());
+        assert!(csv("sensor[1].acceleration,sensor[2].acceleration\n1,2\n3,4\n").signal(None, &[]).is_err());
         assert!(table.column("middle").is_err_and(|e| e.contains("left, right")));
         assert!(table.column("3").is_err() && table.column("0").is_err());
         assert_eq!(table.column("2").unwrap().1, [2.0, 4.0]);
@@ -242,7 +267,7 @@ mod tests {
         }
         writer.finalize().unwrap();
         let table = wav(bytes.get_ref()).unwrap();
-        assert_eq!((table.signal(None).unwrap(), table.rate), (vec![1.0, -2.0], Some(48_000.0)));
+        assert_eq!((table.signal(Some("1"), &[]).unwrap(), table.rate), (vec![1.0, -2.0], Some(48_000.0)));
         assert_eq!(table.column("2").unwrap().1, [7.0, 8.0]);
     }
 }

@@ -1,25 +1,73 @@
-//! NumPy's `.npy` files. Numbers of one or two dimensions are read, in C or Fortran order, and arrays of one dimension
-//! with named fields, each a number or a row of numbers, as the recorder of an FMU writes them. Of two dimensions the
-//! shorter one counts channels.
+//! NumPy's files: [`.npy`][npy], and `.npz`, a ZIP archive of them. Numbers of one or two dimensions are read, in C or
+//! Fortran order, and arrays of one dimension with named fields, each a number or a row of numbers, as the recorder of
+//! an FMU writes them.
+//!
+//! The header is a Python literal, which is translated to JSON:
+//!
+//! ```text
+//! {'descr': '<f8', 'fortran_order': False, 'shape': (204800, 2), }
+//! {'descr': [('time', '<f8'), ('element.path', '<f8', (100,)), ], 'fortran_order': False, 'shape': (51201,), }
+//! ```
+//!
+//! [npy]: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 
-use super::interleaving::deinterleaved;
-use super::npy_header::{Field, Header};
+use std::io::{Cursor, Read};
 
-/// Names, empty where there are none, and the columns.
-type Columns = (Vec<String>, Vec<Vec<f64>>);
+use serde::Deserialize;
 
-/// How a number is stored.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Kind {
-    /// `f`, `i` or `u`.
-    letter: char,
-    big_endian: bool,
-    /// Bytes.
-    size: usize,
+use super::array::{self, Columns, Number};
+
+#[derive(Deserialize)]
+struct Header {
+    descr: Elements,
+    fortran_order: bool,
+    shape: Vec<usize>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Elements {
+    Number(String),
+    Fields(Vec<Field>),
+}
+
+/// Name and type; of a row of numbers their count, too.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Field {
+    Number(String, String),
+    Row(String, String, [usize; 1]),
+    Other(serde_json::Value),
+}
+
+/// Most numbers of a row, and bytes that fill up a row of C's: a hostile file must not exhaust the memory.
+const MOST: usize = 1 << 16;
+/// Most bytes of a file in an archive.
+const LARGEST: u64 = 1 << 30;
+
+/// Channels of all arrays in an archive, named after them.
+pub(super) fn archive(bytes: &[u8]) -> Result<Columns, String> {
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|why| why.to_string())?;
+    let (mut all_names, mut all) = (Vec::new(), Vec::new());
+    for index in 0..archive.len() {
+        let entry = archive.by_index(index).map_err(|why| why.to_string())?;
+        let name = entry.name().map_err(|why| why.to_string())?.into_owned();
+        let Some(name) = name.strip_suffix(".npy") else { continue };
+        let mut inside = Vec::new();
+        entry.take(LARGEST).read_to_end(&mut inside).map_err(|why| format!("{name}: {why}"))?;
+        let (names, columns) = columns(&inside).map_err(|why| format!("{name}: {why}"))?;
+        // A scalar or a text beside the signals.
+        if columns.iter().all(|column| column.len() < 2) {
+            continue;
+        }
+        all_names.extend(if names.is_empty() { array::names(name, columns.len()) } else { names });
+        all.extend(columns);
+    }
+    Ok((all_names, all))
 }
 
 /// The file's channels.
-pub(crate) fn columns(bytes: &[u8]) -> Result<Columns, String> {
+pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
     let short = || "the file ends inside its header".to_owned();
     if bytes.get(..6) != Some(b"\x93NUMPY".as_slice()) {
         return Err("not a .npy file: the magic string is missing".to_owned());
@@ -29,106 +77,103 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<Columns, String> {
         _ => (12, bytes.get(8..12).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize)),
     };
     let end = start + length.ok_or_else(short)?;
-    let header = Header::parse(&String::from_utf8_lossy(bytes.get(start..end).ok_or_else(short)?))?;
-    let bytes_of = |field: &Field| Ok::<_, String>(size(&field.kind)? * field.count.unwrap_or(1));
-    let row: usize = header.fields.iter().map(bytes_of).sum::<Result<_, _>>()?;
-    let needed = header.shape.iter().try_fold(row, |product, &n| product.checked_mul(n));
+    let text = String::from_utf8_lossy(bytes.get(start..end).ok_or_else(short)?);
+    let header: Header = serde_json::from_str(&json(&text)).map_err(|why| format!("the header: {why}"))?;
     let data = &bytes[end..];
-    if needed != Some(data.len()) {
-        let shape = &header.shape;
-        return Err(format!(
-            "{} bytes of numbers, the shape {shape:?} of {row} bytes each needs another number",
-            data.len()
-        ));
+    match &header.descr {
+        Elements::Number(kind) => {
+            let number = Number::of_numpy(kind)?;
+            check_length(data, number.size(), &header.shape)?;
+            let shape = if header.shape.is_empty() { &[1][..] } else { &header.shape };
+            Ok((Vec::new(), array::channels(&number.values(data), shape, header.fortran_order)?))
+        }
+        Elements::Fields(fields) => of_fields(fields, &header.shape, data),
     }
-    if header.structured { fields(&header, row, data) } else { Ok((Vec::new(), channels(&header, data)?)) }
+}
+
+fn check_length(data: &[u8], row: usize, shape: &[usize]) -> Result<(), String> {
+    if shape.iter().try_fold(row, |product, &n| product.checked_mul(n)) == Some(data.len()) {
+        return Ok(());
+    }
+    Err(format!("{} bytes of numbers, the shape {shape:?} of {row} bytes each needs another number", data.len()))
 }
 
 /// Columns of an array with fields.
-fn fields(header: &Header, row: usize, data: &[u8]) -> Result<Columns, String> {
-    if header.shape.len() != 1 {
-        return Err(format!("{} dimensions of named fields: 1 is read", header.shape.len()));
+fn of_fields(fields: &[Field], shape: &[usize], data: &[u8]) -> Result<Columns, String> {
+    if shape.len() != 1 {
+        return Err(format!("{} dimensions of named fields: 1 is read", shape.len()));
     }
-    let (mut names, mut columns, mut at) = (Vec::new(), Vec::new(), 0);
-    for field in &header.fields {
-        let size = size(&field.kind)?;
-        for name in field.names() {
-            let from = at;
-            at += size;
-            // Bytes that fill a row up have no type.
-            if !field.kind.contains('V') {
-                let kind = Kind::parse(&field.kind).map_err(|why| format!("field '{}': {why}", field.name))?;
-                names.push(name);
-                columns.push(data.chunks_exact(row.max(1)).map(|row| kind.value(&row[from..at])).collect());
-            }
-        }
-    }
-    Ok((names, columns))
-}
-
-/// Channels of a plain array.
-fn channels(header: &Header, data: &[u8]) -> Result<Vec<Vec<f64>>, String> {
-    let kind = Kind::parse(&header.fields[0].kind)?;
-    let values: Vec<f64> = data.chunks_exact(kind.size).map(|bytes| kind.value(bytes)).collect();
-    let (rows, width) = match header.shape[..] {
-        [rows] => (rows, 1),
-        [rows, columns] if columns <= rows => (rows, columns),
-        // One row per channel: the same as the other order with the roles changed.
-        [rows, columns] => (columns, rows),
-        _ => return Err(format!("{} dimensions: 1 or 2 are read", header.shape.len())),
-    };
-    let transposed = header.shape.len() == 2 && header.shape[0] != rows;
-    if header.fortran != transposed {
-        return Ok(values.chunks(rows.max(1)).map(<[f64]>::to_vec).collect());
-    }
-    Ok(deinterleaved(&values, width))
-}
-
-/// Bytes of a type.
-fn size(kind: &str) -> Result<usize, String> {
-    let digits = kind.trim_start_matches(['<', '>', '|', '=']).get(1..).unwrap_or_default();
-    let size = digits.parse().ok().filter(|&size: &usize| (1..=LARGEST).contains(&size));
-    size.ok_or_else(|| format!("element type {kind}: {READ}"))
-}
-
-/// Most bytes of an element: those that fill up a row of C's.
-const LARGEST: usize = 1 << 16;
-const READ: &str = "floats of 4 or 8 bytes and integers of 1 to 8 are read";
-
-impl Kind {
-    fn parse(text: &str) -> Result<Self, String> {
-        let refuse = || format!("element type {text}: {READ}");
-        let size = size(text)?;
-        let mut characters = text.chars();
-        let (order, letter) = (characters.next().ok_or_else(refuse)?, characters.next().ok_or_else(refuse)?);
-        let sizes: &[usize] = match letter {
-            'f' => &[4, 8],
-            'i' | 'u' => &[1, 2, 4, 8],
-            _ => &[],
+    // Name, type and first byte of each column.
+    let (mut places, mut row) = (Vec::new(), 0);
+    for field in fields {
+        let (name, kind, count) = match field {
+            Field::Number(name, kind) => (name, kind, None),
+            Field::Row(name, kind, [count]) if (1..=MOST).contains(count) => (name, kind, Some(*count)),
+            Field::Row(name, ..) => return Err(not_read(&name.clone().into())),
+            Field::Other(field) => return Err(not_read(field)),
         };
-        let ordered = matches!(order, '<' | '>') || (order == '|' && size == 1);
-        if ordered && sizes.contains(&size) {
-            Ok(Self { letter, big_endian: order == '>', size })
-        } else {
-            Err(refuse())
+        // Bytes that fill a row up have no type.
+        if let Some(bytes) = kind.strip_prefix("|V").and_then(|bytes| bytes.parse().ok()) {
+            row +=
+                Some(bytes).filter(|bytes| (1..=MOST).contains(bytes)).ok_or_else(|| not_read(&kind.clone().into()))?;
+            continue;
+        }
+        let number = Number::of_numpy(kind).map_err(|why| format!("field '{name}': {why}"))?;
+        for name in entries(name, count) {
+            places.push((name, number, row));
+            row += number.size();
         }
     }
+    check_length(data, row, shape)?;
+    let rows = || data.chunks_exact(row.max(1));
+    Ok(places
+        .into_iter()
+        .map(|(name, number, at)| (name, rows().map(|row| number.value(&row[at..])).collect()))
+        .unzip())
+}
 
-    fn value(self, bytes: &[u8]) -> f64 {
-        let mut little = [0; 8];
-        for (i, to) in little.iter_mut().take(self.size).enumerate() {
-            *to = bytes[if self.big_endian { self.size - 1 - i } else { i }];
+fn not_read(field: &serde_json::Value) -> String {
+    format!("field {field} is neither a number nor a row of numbers for each sample")
+}
+
+/// Names of a field's numbers: `element[1].path` and so on of an array `element.path`.
+fn entries(name: &str, count: Option<usize>) -> Vec<String> {
+    let Some(count) = count else { return vec![name.to_owned()] };
+    let (first, rest) = name.split_at(name.find('.').unwrap_or(name.len()));
+    (1..=count).map(|entry| format!("{first}[{entry}]{rest}")).collect()
+}
+
+/// A Python literal of dictionaries, tuples, lists, texts, numbers and truth values as JSON.
+fn json(literal: &str) -> String {
+    let mut json = String::with_capacity(literal.len());
+    let mut characters = literal.trim().chars();
+    // A comma is written with what follows it: JSON has none before a bracket that closes.
+    let mut comma = false;
+    while let Some(c) = characters.next() {
+        if c.is_whitespace() {
+            continue;
         }
-        let bits = u64::from_le_bytes(little);
-        // The sign's bit is shifted to the top and back.
-        let unused = 64 - 8 * self.size as u32;
-        match (self.letter, self.size) {
-            ('f', 4) => f64::from(f32::from_bits(bits as u32)),
-            ('f', _) => f64::from_bits(bits),
-            ('i', _) => ((bits << unused) as i64 >> unused) as f64,
-            _ => bits as f64,
+        let closes = matches!(c, ')' | ']' | '}');
+        if std::mem::take(&mut comma) && !closes {
+            json.push(',');
+        }
+        match c {
+            ',' => comma = true,
+            '(' => json.push('['),
+            ')' => json.push(']'),
+            '\'' | '"' => {
+                let mut text = String::new();
+                while let Some(inner) = characters.next().filter(|&inner| inner != c) {
+                    // Escapes other than of quotes and of itself do not occur in names of signals.
+                    text.extend(if inner == '\\' { characters.next() } else { Some(inner) });
+                }
+                json += &serde_json::Value::String(text).to_string();
+            }
+            // True and False.
+            _ => json.push(c.to_ascii_lowercase()),
         }
     }
+    json
 }
 
 #[cfg(test)]
@@ -154,19 +199,27 @@ mod tests {
             [("False", [1.0f32, 10.0, 2.0, 20.0, 3.0, 30.0]), ("True", [1.0, 2.0, 3.0, 10.0, 20.0, 30.0])]
         {
             let header = format!("{{'descr': '<f4', 'fortran_order': {order}, 'shape': (3, 2), }}\n");
-            let found = columns(&npy_bytes(&header, &values.map(f32::to_le_bytes).concat())).unwrap().1;
-            assert_eq!(found, [[1.0, 2.0, 3.0], [10.0, 20.0, 30.0]]);
+            let read = columns(&npy_bytes(&header, &values.map(f32::to_le_bytes).concat())).unwrap().1;
+            assert_eq!(read, [[1.0, 2.0, 3.0], [10.0, 20.0, 30.0]]);
+            // The same numbers with a row for each channel, which the other order writes.
+            let other = if order == "True" { "False" } else { "True" };
+            let header = format!("{{'descr': '<f4', 'fortran_order': {other}, 'shape': (2, 3), }}\n");
+            assert_eq!(columns(&npy_bytes(&header, &values.map(f32::to_le_bytes).concat())).unwrap().1, read);
         }
     }
 
     #[test]
-    fn a_field_that_is_an_array_is_a_column_for_each_entry() {
+    fn fields_are_columns_by_their_names_and_rows_of_numbers_a_column_for_each_entry() {
         let header =
             "{'descr': [('t', '<f8'), ('element.path', '<f8', (2,))], 'fortran_order': False, 'shape': (2,), }\n";
         let data = [0.0, 1.0, 2.0, 0.5, 3.0, 4.0].map(f64::to_le_bytes).concat();
-        let (names, found) = columns(&npy_bytes(header, &data)).unwrap();
+        let (names, read) = columns(&npy_bytes(header, &data)).unwrap();
         assert_eq!(names, ["t", "element[1].path", "element[2].path"]);
-        assert_eq!(found, [[0.0, 0.5], [1.0, 3.0], [2.0, 4.0]]);
+        assert_eq!(read, [[0.0, 0.5], [1.0, 3.0], [2.0, 4.0]]);
+        let header = r#"{"shape": (1,), 'fortran_order': False,
+            'descr': [('it\'s (m, [1])', '|i1'), ('', '|V2'), ("b, c", '>u2')]}"#;
+        let (names, read) = columns(&npy_bytes(header, &[0xff, 9, 9, 1, 2])).unwrap();
+        assert_eq!((names, read), (vec!["it's (m, [1])".to_owned(), "b, c".to_owned()], vec![vec![-1.0], vec![258.0]]));
     }
 
     #[test]
@@ -176,7 +229,30 @@ mod tests {
         for len in 0..good.len() {
             assert!(columns(&good[..len]).is_err(), "{len} bytes");
         }
-        let strange = npy_bytes("{'descr': '|O', 'fortran_order': False, 'shape': (2,), }\n", &[0; 16]);
-        assert!(columns(&strange).is_err_and(|e| e.contains("|O")));
+        let refused = |header: &str| columns(&npy_bytes(header, &[0; 16])).unwrap_err();
+        assert!(refused("{'descr': '|O', 'fortran_order': False, 'shape': (2,), }").contains("|O"));
+        assert!(
+            refused("{'descr': [('a', '<f8', (3, 2))], 'fortran_order': False, 'shape': (7,)}").contains("neither")
+        );
+        assert!(refused("{'descr': '<f8', 'fortran_order': False, 'shape': (-1,)}").contains("header"));
+        // Deeper than any header is nested: neither a crash nor an accepted file.
+        assert!(refused(&"(".repeat(60_000)).contains("header"));
+    }
+
+    #[test]
+    fn an_archive_gives_its_arrays_by_name_and_leaves_scalars_out() {
+        let mut bytes = Cursor::new(Vec::new());
+        let mut archive = zip::ZipWriter::new(&mut bytes);
+        let head = |shape: &str| format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}\n");
+        for (name, shape, data) in
+            [("de.npy", "(3,)", &[1u8, 2, 3][..]), ("rpm.npy", "()", &[9]), ("two.npy", "(3, 2)", &[1, 2, 3, 4, 5, 6])]
+        {
+            archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            std::io::Write::write_all(&mut archive, &npy_bytes(&head(shape), data)).unwrap();
+        }
+        archive.finish().unwrap();
+        let (names, read) = super::archive(bytes.get_ref()).unwrap();
+        assert_eq!(names, ["de", "two[1]", "two[2]"]);
+        assert_eq!(read, [[1.0, 2.0, 3.0], [1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
     }
 }

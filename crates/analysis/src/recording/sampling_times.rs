@@ -85,9 +85,9 @@ pub enum Uneven {
         /// Unit.
         unit: String,
     },
-    /// The digits do not tell samples apart.
+    /// The digits do not distinguish samples.
     #[error(
-        "times are given to {}, samples come every {}: whether some are missing cannot be told. Give the times more \
+        "times are given to {}, samples come every {}: whether some are missing is not known. Give the times more \
          digits",
         quantity(.digit, .unit), quantity(.period, .unit)
     )]
@@ -258,7 +258,7 @@ impl<'a> Clock<'a> {
             return double;
         }
         let finest = |range: &[u8]| unit_of_digit(range.iter().copied().max().unwrap_or_default());
-        // The two sides apart: where a fixed number of digits is printed in all, the point moves, and the digit with
+        // Each side by itself: where a fixed number of digits is printed in all, the point moves, and the digit with
         // it.
         let count = self.times.len();
         let before = finest(&self.decimals[(i + 1).saturating_sub(SIDE)..(i + 1).max(SIDE.min(count))]);

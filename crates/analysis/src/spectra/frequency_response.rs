@@ -18,7 +18,7 @@
 //! over samples differs from the integral, (ω Δt)²/12 of a mode, are the same at all frequencies. So a constant is
 //! fitted beside the modes and left out of them.
 
-use crate::recording::csv;
+use crate::recording::{TextFormat, csv};
 use brinell::scene::{MOST_SENSOR_MODES, SensorMode};
 use brinell_eigen::{c64, eigenvalues, least_squares};
 use std::f64::consts::TAU;
@@ -146,7 +146,7 @@ impl FrequencyResponse {
     /// # Errors
     /// What is no such table, with the line.
     pub fn from_csv(text: &str) -> Result<Self, ResponseError> {
-        let (names, columns) = csv::columns(text).map_err(ResponseError::Format)?;
+        let (names, columns) = csv::columns(text, "csv", TextFormat::default()).map_err(ResponseError::Format)?;
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let polar = |[magnitude, degrees]: [f64; 2]| {
             let (sin, cos) = degrees.to_radians().sin_cos();

@@ -17,7 +17,7 @@
 use brinell::contact::map::ContactMaps;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{CageState, Drive, Model, Quadratic};
+use brinell::dynamics::parameters::{CageState, Excitation, Model, Quadratic};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
@@ -219,16 +219,17 @@ impl StaticBearing {
         let model = &self.model;
         let spin = model.spin_with_cage(cage_angle - self.scene.cage.initial_angle);
         let frames = [self.scene.shaft_initial_angle, self.scene.housing_initial_angle, spin];
-        let drive = Drive { shaft_load: load.map(Quadratic::constant), ..Drive::standing(cage_angle, frames) };
+        let excitation =
+            Excitation { shaft_load: load.map(Quadratic::constant), ..Excitation::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
-        let found = model.equilibrium_with_cells(&drive, &mut state);
+        let found = model.equilibrium_with_cells(&excitation, &mut state);
         let cells =
             found.map_err(|cause| StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load, cause })?;
         let mut forces = Forces::of(model);
-        model.derivative(&drive, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
-        let displacement = model.shaft_state(&drive, 0.0, &state).position;
+        model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let displacement = model.shaft_state(&excitation, 0.0, &state).position;
         let paths = &state[..model.element_count];
-        let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&drive, 0.0, &state));
+        let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state));
         let cage = CageState::at_rest(cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(model.element_angle(j, &cage)),

@@ -56,7 +56,7 @@ pub(crate) enum BlobError {
         own: String,
     },
     /// The checksum is right, but the contents cannot be a state of this model.
-    #[error("serialized state: its contents are none that a run of this model leaves behind: {0}")]
+    #[error("serialized state: its contents are not what a run of this model leaves behind: {0}")]
     Contents(&'static str),
 }
 

@@ -184,7 +184,7 @@ mod tests {
     fn every_table_of_the_file_says_its_keys_and_what_kind_of_value_each_takes() {
         let tables = tables();
         for TableOf { name, keys, .. } in tables {
-            // Of a probe there is nothing to be said.
+            // The probe is no table of a file.
             assert!(!keys.is_empty() || ["", "probe"].contains(name), "[{name}]");
         }
         for key in tables[0].keys.iter().filter(|key| !["name", "description", "gravity_m_s2"].contains(key)) {

@@ -75,7 +75,7 @@ pub(super) fn named(message: &str, number: [usize; 2]) -> Vec<(Location, &'stati
     for word in message.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.') {
         let word = word.trim_end_matches('.');
         let (table, key) = word.rsplit_once('.').unwrap_or(("", word));
-        // Keys of the file itself are words of the language, but for one.
+        // Keys of the file itself are words of the language, except for one.
         let known = tables.iter().find(|known| known.name == table && (!table.is_empty() || word == "gravity_m_s2"));
         let Some((known, key)) = known.and_then(|known| known.keys.iter().find(|k| **k == key).map(|k| (known, *k)))
         else {

@@ -12,7 +12,7 @@ struct Asked {
     only: &'static str,
 }
 
-/// What is said to a defect that is given by another key.
+/// The message for a defect that is given by another key.
 const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` \
                        is \"outer\", \"inner\" or \"element\"";
 const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" or \"cylindrical-roller\" with \

@@ -25,11 +25,11 @@ const ROUNDS: usize = 20;
 pub(crate) fn scene_of(text: &str) -> Result<Scene, SceneFileError> {
     let file = DeTable::parse(text).map_err(|error| SceneFileError::Toml(toml_fault(text).unwrap_or(error)))?;
     let read = SceneFile::deserialize(Deserializer::from(file.clone())).map_err(SceneFileError::Toml);
-    read.and_then(|file| checked(file).map_err(untold)).map_err(|error| all_faults(text, file, error))
+    read.and_then(|file| checked(file).map_err(as_error)).map_err(|error| all_faults(text, file, error))
 }
 
 /// Faults without lines.
-fn untold(faults: Faults) -> SceneFileError {
+fn as_error(faults: Faults) -> SceneFileError {
     let value = |fault: TableFault| KeyFault::Value { line: 0, message: fault.to_string() };
     SceneFileError::Keys(faults.0.into_iter().map(value).collect())
 }

@@ -32,7 +32,7 @@ pub(super) fn fault(table: &TableOf, key: &str, value: &DeValue<'_>) -> Option<S
         Kind::Number | Kind::Whole(_) if value.as_str().is_some_and(|text| text.trim().parse::<f64>().is_ok()) => {
             format!("{whole} is {given}: it must be {kind}, without quotes")
         }
-        // One that is below 0 is told like any other value of another kind.
+        // One that is below 0 is reported like any other value of another kind.
         Kind::Number | Kind::Whole(_)
             if value.is_integer() && (*kind != Kind::Whole(true) || !given.starts_with('-')) =>
         {

@@ -10,7 +10,7 @@ use serde::Deserialize;
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DefectTable {
-    /// The body that bears it.
+    /// The body that has it.
     #[serde(default)]
     on: Body,
     /// Which element, from 1.
@@ -31,7 +31,7 @@ pub(crate) struct DefectTable {
     profile: Option<String>,
 }
 
-/// The body that bears a defect.
+/// The body that has a defect.
 #[derive(JsonSchema, Deserialize, Default, Clone, Copy, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 enum Body {

@@ -4,7 +4,7 @@ use crate::NotInCatalogue;
 use brinell::scene::{BearingError, DefectError, Motion, SceneError, nearest};
 use std::error::Error;
 
-/// One reason. Messages name keys with their tables, so that their lines are found.
+/// One reason. Messages name keys with their tables, by which their lines are looked up.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum TableFault {
     #[error("{first} and {second} exclude each other: give only one")]
@@ -111,7 +111,7 @@ impl Faults {
         if self.0.is_empty() { Ok(()) } else { Err(self) }
     }
 
-    /// The same of the table of a name and number, from 0, said to belong to it where there are several.
+    /// The same of the table of a name and number, from 0; the message says so where there are several.
     pub(super) fn in_table(self, table: &'static str, index: usize, count: usize) -> Self {
         let of = |of| TableFault::InTable { table, number: index + 1, of: Box::new(of) };
         if count > 1 { Self(self.0.into_iter().map(of).collect()) } else { self }

@@ -21,12 +21,17 @@ pub(crate) enum Bearer {
 
 /// A model with a defect of the outer raceway, its rings moved as `motions` say, and something at work in everything
 /// that depends on time.
-pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Drive) {
+pub(crate) fn lively(motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Excitation) {
     lively_on(Bearer::Ring(RacewaySide::Outer), motions, damping, cage_angle)
 }
 
 /// As [`lively`], with a defect of any body under the elements below.
-pub(crate) fn lively_on(bearer: Bearer, motions: [Motion; 2], damping: Damping, cage_angle: f64) -> (Model, Drive) {
+pub(crate) fn lively_on(
+    bearer: Bearer,
+    motions: [Motion; 2],
+    damping: Damping,
+    cage_angle: f64,
+) -> (Model, Excitation) {
     lively_with((&RollingElement::Ball, ElementInertia::Full), bearer, motions, damping, cage_angle)
 }
 
@@ -37,7 +42,7 @@ pub(crate) fn lively_with(
     motions: [Motion; 2],
     damping: Damping,
     cage_angle: f64,
-) -> (Model, Drive) {
+) -> (Model, Excitation) {
     let mut scene = Scene::er16k();
     scene.bearing.element = element.clone();
     scene.bearing.element_inertia = inertia;
@@ -82,7 +87,7 @@ pub(crate) fn lively_with(
     let model = Model::new(&scene, rings, own);
     let motion = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
     let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
-    let drive = Drive {
+    let excitation = Excitation {
         cage_start: cage_angle,
         cage_turns: 2,
         cage: Quadratic([0.0, 250.0, 3e4]),
@@ -97,7 +102,7 @@ pub(crate) fn lively_with(
         housing_load: load(-30.0),
         relative_speed: Quadratic([700.0, 8e6, 0.0]),
     };
-    (model, drive)
+    (model, excitation)
 }
 
 /// Numbers between −1 and 1, always the same.
@@ -112,7 +117,7 @@ pub(crate) fn noise(seed: u64) -> impl FnMut() -> f64 {
 }
 
 /// A state in motion, the inner ring pushed 20 µm against the elements below.
-pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Cells) {
+pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<f64>, Cells) {
     let mut noise = noise(seed);
     let z = model.element_count;
     let layout = &model.layout;
@@ -123,13 +128,14 @@ pub(crate) fn moving(model: &Model, drive: &Drive, seed: u64) -> (Vec<f64>, Cell
         state[i + 1] -= 20e-6;
     }
     for j in 0..z {
-        let cage = drive.cage_at(0.0);
+        let cage = excitation.cage_at(0.0);
         let outer = model.outer.defects.cell_at(model.element_angle(j, &cage));
         let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, &cage);
-        let floor = -model.approach(RacewaySide::Outer, &at, &drive.frames_at(0.0)).approach.value;
+        let frames = excitation.frames_at(0.0);
+        let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames).approach.value;
         state[j] += floor + 6e-6;
     }
-    let cells = model.cells_at(drive, 0.0, &state);
+    let cells = model.cells_at(excitation, 0.0, &state);
     (state, cells)
 }
 
@@ -182,19 +188,19 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
         MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
     {
         for angle in angles.clone() {
-            let (model, drive) = lively_with((element, ElementInertia::Full), bearer, motions, damping, angle);
-            let (state, _) = moving(&model, &drive, case as u64 + 1);
+            let (model, excitation) = lively_with((element, ElementInertia::Full), bearer, motions, damping, angle);
+            let (state, _) = moving(&model, &excitation, case as u64 + 1);
             let tau = 1e-5;
-            let cells = model.cells_at(&drive, tau, &state);
+            let cells = model.cells_at(&excitation, tau, &state);
             near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
             let len = model.layout.len;
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
-            model.linearize(&drive, tau, &cells, &state, &mut jacobian, &mut by_time);
+            model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut by_time);
             let matrix = jacobian.matrix(len);
             let mut forces = Forces::of(&model);
             let mut at = |tau: f64, state: &[f64]| {
                 let mut out = vec![0.0; len];
-                model.derivative(&drive, tau, &cells, state, &mut out, &mut forces);
+                model.derivative(&excitation, tau, &cells, state, &mut out, &mut forces);
                 (out, branch(&forces))
             };
             let (here, pushing) = at(tau, &state);

@@ -1,9 +1,10 @@
 //! Elements in balance: those found side by side against those found alone, rates and tangents against differences.
 
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
-use crate::dynamics::parameters::{CageState, Cells, Drive, Stage};
+use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};
 use crate::dynamics::quasi_static::balance_lanes::SmoothElements;
 use crate::dynamics::quasi_static::element_balance::*;
 use crate::numerics::lanes::{Kernel, dispatch};
@@ -13,22 +14,22 @@ use pulp::Scalar256b;
 /// A bearing in motion, at one instant.
 struct Moving {
     model: Model,
-    drive: Drive,
+    excitation: Excitation,
     state: Vec<f64>,
     cells: Cells,
 }
 
 impl Moving {
     fn new(element: &RollingElement, bearer: Bearer, motions: [Motion; 2], damping: Damping, angle: f64) -> Self {
-        let (model, drive) = lively_with((element, ElementInertia::None), bearer, motions, damping, angle);
-        let (state, cells) = moving(&model, &drive, 3);
-        Self { model, drive, state, cells }
+        let (model, excitation) = lively_with((element, ElementInertia::None), bearer, motions, damping, angle);
+        let (state, cells) = moving(&model, &excitation, 3);
+        Self { model, excitation, state, cells }
     }
 
     /// Derivative and forces with the state moved on.
     fn at(&self, tau: f64, state: &[f64]) -> (Vec<f64>, Forces) {
         let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(&self.model));
-        self.model.derivative(&self.drive, tau, &self.cells, state, &mut rates, &mut forces);
+        self.model.derivative(&self.excitation, tau, &self.cells, state, &mut rates, &mut forces);
         (rates, forces)
     }
 
@@ -65,29 +66,31 @@ fn cases() -> Vec<Moving> {
 fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
     let (mut pressed, mut near_defect) = (0, 0);
     for case in cases() {
-        let Moving { model, drive, state, cells } = &case;
+        let Moving { model, excitation, state, cells } = &case;
         let (rates, forces) = case.at(0.0, state);
-        let now = model.kinematics(drive, 0.0, state);
+        let now = model.kinematics(excitation, 0.0, state);
         let contacts = &forces.contacts;
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
             let in_cells = model.cells_of(cells, j);
-            let found = model.in_balance(j, in_cells, 0.0, &now);
-            let Linearized { e_r, omega, .. } = found.elastic;
+            let found = model.in_balance(in_cells, 0.0, &model.element_motion(j, PathMotion::at_rest(0.0), &now));
+            let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
             let scale = found.inner.norm() + found.outer.norm() + body.abs();
-            let left = found.inner.dot(&e_r) - found.outer.x + body;
+            let left = found.inner.x - found.outer.x + body;
             // The search ends a thousandth below what it is asked for; rounding of 30 µm on the contact's stiffness.
             assert!(left.abs() < 1e-11 * scale + 1e-11, "{left:e} N is left of element {j}'s {scale} N");
             pressed += usize::from(found.inner.norm() > 1.0);
             near_defect += usize::from(in_cells != [[SMOOTH; 2]; 2]);
-            let [shaft, housing] = found.exerted().rings;
+            let [shaft, housing] = found.forces().on_rings();
             rings += stacked(shaft, housing);
             // Both end their search where 1e-12 m is left of a step; side by side stiffnesses are those before it.
             let path = forces.paths(model, state)[j];
             assert!((path - found.path).abs() < 1e-15, "element {j}: {path:e} against {:e} alone", found.path);
             let rate = rates[j] - found.path_rate;
-            let pushing = found.elastic.approaches.into_iter().filter(|&approach| approach > 0.0);
+            let pushing = [found.elastic.inner.approach, found.elastic.outer.approach]
+                .into_iter()
+                .filter(|&approach| approach > 0.0);
             let share = 2e-12 / pushing.fold(1.0, f64::min);
             let limit = share * found.path_rate.abs() + 1e-11;
             assert!(rate.abs() < limit, "element {j}: {rate:e} of {:e}", found.path_rate);
@@ -106,9 +109,9 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
 #[test]
 fn the_balance_does_not_depend_on_where_its_search_begins() {
     for case in cases().into_iter().step_by(5) {
-        let Moving { model, drive, state, cells } = &case;
+        let Moving { model, excitation, state, cells } = &case;
         let (_, forces) = case.at(0.0, state);
-        let now = model.kinematics(drive, 0.0, state);
+        let now = model.kinematics(excitation, 0.0, state);
         for guess in [-90e-6, -1e-6, 2e-9, 40e-6] {
             let mut from = state.clone();
             from[..model.element_count].fill(guess);
@@ -117,7 +120,8 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
                 let [one, other] = [&forces, &again].map(|forces| forces.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
-                let alone = model.in_balance(j, model.cells_of(cells, j), guess, &now).path;
+                let at = model.element_motion(j, PathMotion::at_rest(guess), &now);
+                let alone = model.in_balance(model.cells_of(cells, j), guess, &at).path;
                 assert!((one - alone).abs() < 1e-15, "{one:e} and {alone:e} alone from {guess:e}");
             }
         }
@@ -161,10 +165,10 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
         for element in [RollingElement::Ball, roller()] {
             for bearer in [RacewaySide::Outer, RacewaySide::Inner].map(Bearer::Ring) {
                 let case = Moving::new(&element, bearer, [Motion::Internal; 2], damping, -1.58);
-                let Moving { model, drive, state, cells } = &case;
+                let Moving { model, excitation, state, cells } = &case;
                 let len = model.layout.len;
                 let mut jacobian = Jacobian::new(model);
-                model.linearize(drive, 0.0, cells, state, &mut jacobian, &mut vec![0.0; len]);
+                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut vec![0.0; len]);
                 let matrix = jacobian.matrix(len);
                 let (here, forces) = case.at(0.0, state);
                 let largest = here.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
@@ -206,14 +210,14 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
 #[test]
 fn registers_of_every_width_give_the_same_bits() {
     for case in cases().into_iter().step_by(7) {
-        let Moving { model, drive, state, cells } = &case;
-        let cage: CageState = drive.cage_at(0.0);
-        let stage = Stage { drive, cage: &cage, state, ahead: Some(1e-6) };
-        let now = model.kinematics(drive, 0.0, state).motion;
+        let Moving { model, excitation, state, cells } = &case;
+        let cage: CageState = excitation.cage_at(0.0);
+        let stage = Stage { excitation, cage: &cage, state, ahead: Some(1e-6) };
+        let now = model.kinematics(excitation, 0.0, state).motion;
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.update_uneven(drive, &cage, &mut forces.elements);
+            model.update_uneven(excitation, &cage, &mut forces.elements);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

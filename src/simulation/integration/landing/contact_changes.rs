@@ -41,7 +41,7 @@ pub(in crate::simulation) fn first_change(
         };
         probe(workspace, problem, span, share, progress);
         let value = workspace.forces.beyond_change(&progress.pushing);
-        // What is no number counts as changed: the step is then cut before it.
+        // NaN counts as changed: the step is then cut before it.
         last_before = value <= 0.0;
         if last_before {
             (before, at_before) = (share, Some(value));

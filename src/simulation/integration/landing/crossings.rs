@@ -66,11 +66,8 @@ pub(in crate::simulation) fn first_crossing(
     progress: &Progress,
 ) -> Option<Crossing> {
     let model = problem.model;
-    let [start, end] = [(span.from, &progress.state), (span.end(), &workspace.room.end)].map(|(tau, state)| Instant {
-        now: model.kinematics(problem.drive, tau, state),
-        tau,
-        paths: state,
-    });
+    let [start, end] = [(span.from, &progress.state), (span.end(), &workspace.buffers.end)]
+        .map(|(tau, state)| Instant { now: model.kinematics(problem.excitation, tau, state), tau, paths: state });
     let mut first: Option<Candidate> = None;
     for at in watched(problem, progress) {
         let frame = start.now.frames.of(at.defects.frame).angle;
@@ -106,7 +103,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         }
         probe(workspace, problem, span, share, progress);
         let tau = span.from + share * span.length;
-        let now = model.kinematics(problem.drive, tau, &workspace.dense);
+        let now = model.kinematics(problem.excitation, tau, &workspace.dense);
         let there = Instant { now, tau, paths: &workspace.dense };
         let made = begun.travel(problem, &there) / way;
         let beyond = made >= 1.0;
@@ -170,7 +167,8 @@ impl Begun<'_> {
     /// Angle that the contact has gone since (rad), against what bears its defect.
     fn travel(&self, problem: Problem, to: &Instant) -> f64 {
         // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
-        let (cage, frame) = (&problem.drive.cage, &problem.drive.frames[self.at.defects.frame as usize].since);
+        let (cage, frame) =
+            (&problem.excitation.cage, &problem.excitation.frames[self.at.defects.frame as usize].since);
         let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
         even + (to.lead(problem, &self.at) - self.lead)
     }

@@ -10,7 +10,7 @@
 //! angle of about 0, therefore neither fires again nor is missed when the cage comes back; and a knot on which the cage
 //! turns is passed both ways or not at all.
 
-use crate::dynamics::parameters::{Ahead, Cells, Defects, Drive, Frame, Model, Quadratic};
+use crate::dynamics::parameters::{Ahead, Cells, Defects, Excitation, Frame, Model, Quadratic};
 
 /// Part of a communication step on which elements turn one way against what bears a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +72,7 @@ impl Contact {
 /// since the communication point.
 pub(in crate::simulation) fn next_knot(
     model: &Model,
-    drive: &Drive,
+    excitation: &Excitation,
     from: f64,
     legs: Legs,
     end: f64,
@@ -82,8 +82,8 @@ pub(in crate::simulation) fn next_knot(
     if model.is_uneven() {
         return None;
     }
-    let over = |frame: Frame| Search { model, drive, frame, from, end };
-    let ring = passages(drive, Frame::Housing, legs.ring, |way, leg| {
+    let over = |frame: Frame| Search { model, excitation, frame, from, end };
+    let ring = passages(excitation, Frame::Housing, legs.ring, |way, leg| {
         let on = |(j, &cell): (usize, &u32)| Way {
             defects: &model.outer.defects,
             element: j,
@@ -96,7 +96,7 @@ pub(in crate::simulation) fn next_knot(
     if model.defective.is_empty() {
         return ring;
     }
-    let spin = passages(drive, Frame::Spin, legs.spin, |way, leg| {
+    let spin = passages(excitation, Frame::Spin, legs.spin, |way, leg| {
         let own = model.defective.iter().zip(&cells.own).enumerate();
         let own = own.map(|(k, (defective, cells))| Way {
             defects: &defective.defects[1],
@@ -114,14 +114,14 @@ pub(in crate::simulation) fn next_knot(
 }
 
 /// Angle of element 1 against a frame since the start of the communication step.
-fn against(drive: &Drive, frame: Frame) -> Quadratic {
-    let of = drive.frames[frame as usize].since.0;
-    Quadratic(std::array::from_fn(|i| drive.cage.0[i] - of[i]))
+fn against(excitation: &Excitation, frame: Frame) -> Quadratic {
+    let of = excitation.frames[frame as usize].since.0;
+    Quadratic(std::array::from_fn(|i| excitation.cage.0[i] - of[i]))
 }
 
 /// The first knot that `on` finds on the legs that are left, asked with the way of each.
-fn passages(drive: &Drive, frame: Frame, leg: Leg, on: impl Fn(f64, Leg) -> Option<Knot>) -> Option<Knot> {
-    let [_, speed, acceleration] = against(drive, frame).0;
+fn passages(excitation: &Excitation, frame: Frame, leg: Leg, on: impl Fn(f64, Leg) -> Option<Knot>) -> Option<Knot> {
+    let [_, speed, acceleration] = against(excitation, frame).0;
     let out = if speed == 0.0 { acceleration } else { speed };
     let found = if leg == Leg::Out && out != 0.0 { on(out.signum(), Leg::Out) } else { None };
     // Every passage on the way out comes before every one on the way back.
@@ -140,7 +140,7 @@ struct Way<'a> {
 /// communication point (s).
 struct Search<'a> {
     model: &'a Model,
-    drive: &'a Drive,
+    excitation: &'a Excitation,
     frame: Frame,
     from: f64,
     end: f64,
@@ -157,9 +157,9 @@ struct Passage {
 impl Search<'_> {
     /// The earliest passage on a leg that goes `way`, 1 or −1.
     fn earliest<'a>(&self, way: f64, leg: Leg, contacts: impl Iterator<Item = Way<'a>>) -> Option<Passage> {
-        let Self { model, drive, frame, from, end } = *self;
+        let Self { model, excitation, frame, from, end } = *self;
         let (cage_angle, turned, against) =
-            (drive.cage_angle(from), drive.frames_at(from).of(frame).angle, against(drive, frame));
+            (excitation.cage_angle(from), excitation.frames_at(from).of(frame).angle, against(excitation, frame));
         let (mut speed, acceleration) = (way * against.rate_at(from), way * against.0[2]);
         if leg == Leg::Out {
             // Where the cage is about to turn, rounding may show it on its way back already.
@@ -182,7 +182,7 @@ impl Search<'_> {
 /// moving backward that is when it comes back, also for an angle of 0.
 fn passage(speed: f64, acceleration: f64, angle: f64) -> f64 {
     let root = (speed * speed + 2.0 * acceleration * angle).sqrt();
-    // Of the two forms of the same root the one in which nothing cancels. No root is no number, and then neither is the
+    // Of the two forms of the same root the one in which nothing cancels. No root is NaN, and then neither is the
     // time.
     if speed > 0.0 {
         2.0 * angle / (speed + root)
@@ -247,13 +247,13 @@ mod tests {
     }
 
     /// Passes the knots of one communication step; gives how many.
-    fn walk(model: &Model, drive: &Drive, end: f64, cells: &mut Cells) -> usize {
+    fn walk(model: &Model, excitation: &Excitation, end: f64, cells: &mut Cells) -> usize {
         let (mut tau, mut legs, mut count) = (0.0, Legs::OUT, 0);
-        while let Some(knot) = next_knot(model, drive, tau, legs, end, cells) {
+        while let Some(knot) = next_knot(model, excitation, tau, legs, end, cells) {
             (tau, legs) = (knot.tau.max(tau), knot.legs);
             knot.contact.enter(knot.cell, cells);
             count += 1;
-            assert!(count < 100_000, "{drive:?}: passages without end");
+            assert!(count < 100_000, "{excitation:?}: passages without end");
         }
         count
     }
@@ -302,8 +302,8 @@ mod tests {
             let mut speed = speed;
             for (acceleration, time) in steps {
                 let cage = Quadratic([0.0, speed, acceleration]);
-                let drive = Drive { cage_start: angle.rest, cage, ..Drive::default() };
-                walk(model, &drive, time, &mut cells);
+                let excitation = Excitation { cage_start: angle.rest, cage, ..Excitation::default() };
+                walk(model, &excitation, time, &mut cells);
                 angle = angle.advanced(cage.at(time));
                 for (j, &cell) in cells.outer.iter().enumerate() {
                     // Rounding of the way made, turns included, and of times within the step.
@@ -331,9 +331,9 @@ mod tests {
                     let before = cell_at(model, 0, cage_start);
                     let mut cells = Cells { outer: vec![before], ..Cells::default() };
                     let cage = Quadratic([0.0, speed, acceleration]);
-                    let drive = Drive { cage_start, cage, ..Drive::default() };
-                    let met = walk(model, &drive, -2.5 * speed / acceleration, &mut cells);
-                    assert!(cells.outer[0] == before || turn.abs() > 1e-3, "knot {k}: {drive:?}");
+                    let excitation = Excitation { cage_start, cage, ..Excitation::default() };
+                    let met = walk(model, &excitation, -2.5 * speed / acceleration, &mut cells);
+                    assert!(cells.outer[0] == before || turn.abs() > 1e-3, "knot {k}: {excitation:?}");
                     passed[met.min(2)] += usize::from(turn.abs() <= 1e-3);
                 }
             }

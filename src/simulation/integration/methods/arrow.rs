@@ -137,7 +137,7 @@ impl Arrow {
             *v = body.map_or(0.0, |body| *v + b[body.velocity]);
         }
         if !self.bodies.solve(&mut v) {
-            // Error control takes a step back whose result is no number.
+            // Error control takes a step back whose result is NaN.
             v.fill(f64::NAN);
         }
         for (i, body) in jacobian.body_indices.iter().enumerate() {
@@ -164,11 +164,11 @@ mod tests {
         for (case, (motions, damping)) in
             MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
         {
-            let (model, drive) = lively(motions, damping, -1.58);
-            let (state, cells) = moving(&model, &drive, case as u64);
+            let (model, excitation) = lively(motions, damping, -1.58);
+            let (state, cells) = moving(&model, &excitation, case as u64);
             let len = model.layout.len;
             let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
-            model.linearize(&drive, 0.0, &cells, &state, &mut jacobian, &mut by_time);
+            model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut by_time);
             let matrix = jacobian.matrix(len);
             let mut arrow = Arrow::new(&model);
             for shift in [1e2, 1e5, 1e9] {

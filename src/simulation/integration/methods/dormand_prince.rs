@@ -4,7 +4,7 @@
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
 use super::explicit::{LAST, RightHandSide, Weights, combine, row};
-use super::room::Room;
+use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::{Each, Lanes, Wide};
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -42,12 +42,12 @@ const DENSE: [f64; 7] = [
 #[inline(always)]
 pub(crate) fn try_step<S: Wide>(
     simd: S,
-    room: &mut Room,
+    buffers: &mut StageBuffers,
     state: &[f64],
     h: f64,
     right_hand_side: &mut impl RightHandSide,
 ) {
-    let Room { first, last, stages, end, trial, positions, partition, .. } = room;
+    let StageBuffers { first, last, stages, end, trial, positions, partition, .. } = buffers;
     let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
     let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
     for stage in 1..LAST {
@@ -78,9 +78,9 @@ pub(crate) fn try_step<S: Wide>(
 
 /// State at share `share` of the step tried last, whose length was `h`, into `out`.
 #[inline(always)]
-pub(crate) fn dense<S: Wide>(simd: S, room: &Room, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
-    let Room { first, last, stages: [_, b, c, d, e, ..], .. } = room;
-    room.partition.for_each(simd, [state, &room.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
+pub(crate) fn dense<S: Wide>(simd: S, buffers: &StageBuffers, state: &[f64], h: f64, share: f64, out: &mut [f64]) {
+    let StageBuffers { first, last, stages: [_, b, c, d, e, ..], .. } = buffers;
+    buffers.partition.for_each(simd, [state, &buffers.end, first, b, c, d, e, last], out, &Dense { h, share }, &mut ());
 }
 
 /// The state at a share of a step of this length: from those at its ends and all stages but the second, whose weight is
@@ -100,11 +100,11 @@ impl Each<8, 1> for Dense {
         let difference = after - state;
         let start = h * first - difference;
         let end = difference - h * last - start;
-        let mut bend = Lanes::splat(simd, DENSE[0]) * first;
+        let mut second = Lanes::splat(simd, DENSE[0]) * first;
         for (stage, &weight) in [b, c, d, e, last].into_iter().zip(&DENSE[2..]) {
-            bend = bend + Lanes::splat(simd, weight) * stage;
+            second = second + Lanes::splat(simd, weight) * stage;
         }
-        [state + share * (difference + rest * (start + share * (end + rest * h * bend)))]
+        [state + share * (difference + rest * (start + share * (end + rest * h * second)))]
     }
 }
 
@@ -130,12 +130,12 @@ mod tests {
         }
     }
 
-    fn step(method: &mut Room, tau: f64, state: &[f64], h: f64) {
+    fn step(method: &mut StageBuffers, tau: f64, state: &[f64], h: f64) {
         try_step(Scalar256b, method, state, h, &mut From(tau, h));
     }
 
     fn integrate(count: usize) -> Vec<f64> {
-        let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+        let mut method = StageBuffers::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
         let mut state = vec![1.0, 0.0, 1.0, 0.0];
         let h = 1.0 / count as f64;
         for i in 0..count {
@@ -193,7 +193,7 @@ mod tests {
     fn dense_output_is_of_order_four() {
         // One step from the exact state: its dense output is wrong by O(h⁵). Largest error over the step's shares.
         let error = |h: f64| {
-            let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+            let mut method = StageBuffers::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
             let state = vec![0.0, 0.0, 1.0, 0.0];
             let mut first = vec![0.0; 4];
             right_hand_side(0.0, &state, &mut first);

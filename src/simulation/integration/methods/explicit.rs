@@ -1,6 +1,6 @@
 //! What the explicit methods share: sums of stages, error estimates, and what is asked of the equations.
 
-use super::room::Room;
+use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{
     Each, Lanes, Partition, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut,
@@ -14,29 +14,29 @@ pub(crate) type ErrorParts = [(usize, f64); 6];
 
 /// A stage by its number.
 #[inline(always)]
-fn stage_of(room: &Room, number: usize) -> &Row {
+fn stage_of(buffers: &StageBuffers, number: usize) -> &Row {
     match number {
-        0 => &room.first,
-        LAST => &room.last,
-        _ => &room.stages[number - 1],
+        0 => &buffers.first,
+        LAST => &buffers.last,
+        _ => &buffers.stages[number - 1],
     }
 }
 
 /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as soon as
 /// one is no finite number.
 #[inline(always)]
-pub fn largest_error<S: Wide>(simd: S, room: &Room, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
+pub fn largest_error<S: Wide>(simd: S, buffers: &StageBuffers, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
     let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
-    let [a, b, c, d, e, f] = parts.map(|(number, _)| &stage_of(room, number)[..]);
-    room.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+    let [a, b, c, d, e, f] = parts.map(|(number, _)| &stage_of(buffers, number)[..]);
+    buffers.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
     if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
 }
 
 /// Error estimate of component `i` of the step tried last.
-pub(crate) fn error(room: &Room, parts: ErrorParts, i: usize, h: f64) -> f64 {
+pub(crate) fn error(buffers: &StageBuffers, parts: ErrorParts, i: usize, h: f64) -> f64 {
     let mut sum = 0.0;
     for (stage, weight) in parts {
-        sum += weight * stage_of(room, stage)[i];
+        sum += weight * stage_of(buffers, stage)[i];
     }
     h * sum
 }

@@ -3,12 +3,12 @@
 mod arrow;
 pub(in crate::simulation) mod dormand_prince;
 pub(in crate::simulation) mod explicit;
-mod pair;
+mod explicit_methods;
 pub mod phase_fitted;
 pub(in crate::simulation) mod rodas;
-mod room;
+mod stage_buffers;
 
 pub use arrow::Arrow;
 pub use explicit::{LAST, RightHandSide, largest_error};
-pub use pair::Pair;
-pub use room::Room;
+pub use explicit_methods::ExplicitMethod;
+pub use stage_buffers::StageBuffers;

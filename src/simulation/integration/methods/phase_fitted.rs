@@ -19,7 +19,7 @@
 //! leaves them. The tests check all of it.
 
 use super::explicit::{LAST, RightHandSide, Weights, combine, row};
-use super::room::Room;
+use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::Wide;
 
 /// Order of a step, and of the one that its error is estimated by.
@@ -65,8 +65,14 @@ pub const ERROR: [f64; 7] = [
 
 /// Tries a step of length `h` from `state`; the first stage must be there.
 #[inline(always)]
-pub fn try_step<S: Wide>(simd: S, room: &mut Room, state: &[f64], h: f64, right_hand_side: &mut impl RightHandSide) {
-    let Room { first, last, stages, end, trial, positions, partition, .. } = room;
+pub fn try_step<S: Wide>(
+    simd: S,
+    buffers: &mut StageBuffers,
+    state: &[f64],
+    h: f64,
+    right_hand_side: &mut impl RightHandSide,
+) {
+    let StageBuffers { first, last, stages, end, trial, positions, partition, .. } = buffers;
     let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
     for stage in 1..5 {
         let (done, rest) = stages.split_at_mut(stage - 1);
@@ -280,15 +286,15 @@ mod tests {
     /// Both oscillators after `count` steps of length `h`.
     fn integrate(start: [f64; 4], count: usize, h: f64, force: impl Fn(f64, f64, f64) -> f64 + Copy) -> [f64; 4] {
         let kinds = Row::from_fn(4, |i| if i % 2 == 0 { 1.0 } else { 0.0 });
-        let mut room = Room::new(Partition { count: 0, rest: 4 }, kinds);
+        let mut buffers = StageBuffers::new(Partition { count: 0, rest: 4 }, kinds);
         let mut state = start;
         for step in 0..count {
             let mut equations = Oscillators(force, step as f64 * h, h);
             let mut first = [0.0; 4];
             equations.evaluate(Scalar256b, 0, &state, None, &mut first);
-            room.first.copy_from_slice(&first);
-            try_step(Scalar256b, &mut room, &state, h, &mut equations);
-            state.copy_from_slice(&room.end);
+            buffers.first.copy_from_slice(&first);
+            try_step(Scalar256b, &mut buffers, &state, h, &mut equations);
+            state.copy_from_slice(&buffers.end);
         }
         state
     }
@@ -331,7 +337,7 @@ mod tests {
         }
     }
 
-    struct OneStep<'a>(&'a mut Room, &'a [f64]);
+    struct OneStep<'a>(&'a mut StageBuffers, &'a [f64]);
 
     impl Kernel for OneStep<'_> {
         type Output = Vec<f64>;
@@ -347,15 +353,15 @@ mod tests {
     fn lists_of_any_width_give_equal_bits_and_what_single_oscillators_give() {
         let is_position = |i: usize| i < 9 || i == 32 || i == 34;
         let kinds = Row::from_fn(36, |i| f64::from(u8::from(is_position(i))));
-        let mut room = Room::new(Partition { count: 9, rest: 4 }, kinds);
+        let mut buffers = StageBuffers::new(Partition { count: 9, rest: 4 }, kinds);
         let state: Vec<f64> = (0..36)
             .map(|i| if (9..16).contains(&i) || (25..32).contains(&i) { 0.0 } else { (i as f64).sin() })
             .collect();
         let mut first = vec![0.0; 36];
         Lists(3.0).evaluate(Scalar256b, 0, &state, None, &mut first);
-        room.first.copy_from_slice(&first);
-        let wide = dispatch(OneStep(&mut room, &state));
-        let narrow = OneStep(&mut room, &state).run(Scalar256b);
+        buffers.first.copy_from_slice(&first);
+        let wide = dispatch(OneStep(&mut buffers, &state));
+        let narrow = OneStep(&mut buffers, &state).run(Scalar256b);
         assert_eq!(wide, narrow);
         for j in 0..9 {
             let alone = integrate([state[j], state[16 + j], 0.0, 0.0], 1, 0.1, |_, x, _| -3.0 * x * (1.0 + j as f64));

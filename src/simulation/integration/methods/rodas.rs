@@ -11,7 +11,7 @@
 //!
 //! J and ∂f/∂t must be exact for the order to hold. At the onset of a contact they jump; steps end there.
 
-use super::room::Room;
+use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Wide};
 
@@ -112,17 +112,18 @@ fn lists<'a, const N: usize>(first: &[&'a [f64]], stages: &'a [Row]) -> [&'a [f6
     std::array::from_fn(|i| if i < first.len() { first[i] } else { &*stages[i - first.len()] })
 }
 
-/// Tries a step of length `h` from `state`, whose derivative is [`Room::first`] and its derivative by time `by_time`.
+/// Tries a step of length `h` from `state`, whose derivative is [`StageBuffers::first`] and its derivative by time
+/// `by_time`.
 #[inline(always)]
 pub(crate) fn try_step<S: Wide>(
     simd: S,
-    room: &mut Room,
+    buffers: &mut StageBuffers,
     state: &[f64],
     by_time: &[f64],
     h: f64,
     system: &mut impl System,
 ) {
-    let Room { first, stages, end, trial, slope, partition, .. } = room;
+    let StageBuffers { first, stages, end, trial, slope, partition, .. } = buffers;
     partition.for_each(simd, [first, by_time], &mut stages[0], &Coupled::<0>(h), &mut ());
     system.solve(&mut stages[0]);
     for stage in 1..8 {
@@ -156,9 +157,9 @@ pub(crate) fn try_step<S: Wide>(
 
 /// Largest magnitude of the error estimate of the step tried last, each component times its weight; infinite as
 /// soon as one is no finite number.
-pub(crate) fn largest_error(room: &Room, weights: &[f64]) -> f64 {
+pub(crate) fn largest_error(buffers: &StageBuffers, weights: &[f64]) -> f64 {
     let (mut largest, mut poison) = (0.0f64, 0.0);
-    for (error, weight) in room.stages[7].iter().zip(weights) {
+    for (error, weight) in buffers.stages[7].iter().zip(weights) {
         largest = largest.max((error * weight).abs());
         poison += 0.0 * error;
     }
@@ -166,21 +167,21 @@ pub(crate) fn largest_error(room: &Room, weights: &[f64]) -> f64 {
 }
 
 /// Error estimate of component `i` of the step tried last.
-pub(crate) fn error(room: &Room, i: usize) -> f64 {
-    room.stages[7][i]
+pub(crate) fn error(buffers: &StageBuffers, i: usize) -> f64 {
+    buffers.stages[7][i]
 }
 
 /// State at share `share` of the step tried last, into `out`.
 #[inline(always)]
-pub(crate) fn dense<S: Wide>(simd: S, room: &Room, state: &[f64], share: f64, out: &mut [f64]) {
+pub(crate) fn dense<S: Wide>(simd: S, buffers: &StageBuffers, state: &[f64], share: f64, out: &mut [f64]) {
     let rest = 1.0 - share;
     let mut weights = [0.0; 8];
     for (i, weight) in weights.iter_mut().enumerate() {
         *weight = share * rest * (DENSE[0][i] + share * (DENSE[1][i] + share * DENSE[2][i]));
     }
-    let [a, b, c, d, e, f, g, last] = &room.stages;
-    let from = [state, &room.end, a, b, c, d, e, f, g, last];
-    room.partition.for_each(simd, from, out, &Dense { share, weights }, &mut ());
+    let [a, b, c, d, e, f, g, last] = &buffers.stages;
+    let from = [state, &buffers.end, a, b, c, d, e, f, g, last];
+    buffers.partition.for_each(simd, from, out, &Dense { share, weights }, &mut ());
 }
 
 /// What the method integrates.

@@ -1,6 +1,6 @@
 //! The trial spall whose simulated passage is most like a measured one.
 
-pub(crate) mod ringing;
+pub mod ringing;
 pub mod synthesis;
 mod trial_search;
 pub(crate) mod waveform_length;

@@ -55,7 +55,7 @@ impl Ringing {
 ///
 /// # Errors
 /// Those of the static balance.
-pub(crate) fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
+pub fn expected(rig: &Rig<'_>, trial: Trial, spacing: f64) -> Result<Ringing, StaticError> {
     let scene = rig.with_spall(trial);
     let bearing = StaticBearing::new(&scene, None)?;
     let centre = scene.defects.first().map_or(0.0, |d| d.angle);
@@ -86,7 +86,7 @@ pub(crate) fn critical_load(scene: &Scene, trial: Trial) -> Result<Result<f64, N
 
 /// Strongest frequency of a stretch of signal sampled at `rate` (Hz); `None` when it is shorter than two of its
 /// periods.
-pub(crate) fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
+pub fn strongest(signal: &[f64], rate: f64) -> Option<f64> {
     if signal.len() < 16 {
         return None;
     }

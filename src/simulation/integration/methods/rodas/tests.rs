@@ -93,14 +93,14 @@ impl System for Equations {
     }
 }
 
-fn step(method: &mut Room, tau: f64, y: &[f64], h: f64) {
+fn step(method: &mut StageBuffers, tau: f64, y: &[f64], h: f64) {
     right_hand_side(tau, y, &mut method.first);
     let by_time = [-LAMBDA * tau.sin() - tau.cos(), 0.0, 0.0, 0.0];
     try_step(Scalar256b, method, y, &by_time, h, &mut Equations { tau, h, y: y[1] });
 }
 
 fn integrate(count: usize) -> Vec<f64> {
-    let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+    let mut method = StageBuffers::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
     let mut y = vec![0.5, 0.0, 1.0, 0.0];
     let h = 1.0 / count as f64;
     for i in 0..count {
@@ -125,7 +125,7 @@ fn halving_the_step_divides_the_error_by_two_to_the_fifth() {
 #[test]
 fn dense_output_is_of_order_four() {
     let error = |h: f64| {
-        let mut method = Room::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
+        let mut method = StageBuffers::new(Partition { count: 0, rest: 4 }, Row::zeros(4));
         let (y, mut found) = (vec![1.0, 0.0, 1.0, 0.0], vec![0.0; 4]);
         step(&mut method, 0.0, &y, h);
         (1..20)

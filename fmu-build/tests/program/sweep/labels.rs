@@ -1,0 +1,55 @@
+//! Labels in the words of public collections, and a floor of noise.
+
+use super::{QUICK, column, file, refused, sweep};
+use crate::common;
+use parquet::record::Field;
+use std::fs;
+
+#[test]
+fn runs_are_labelled_in_the_words_of_public_collections_and_the_healthy_are_not_silent() {
+    let folder = common::folder("sweep-field-labels");
+    let text = QUICK
+        .replace("runs = 24", "runs = 8")
+        .replace("\"inner\"]", "\"inner\", \"element\"]")
+        .replace("noise_db = [0, 30]", "noise_rms_m_s2 = 0.25\nnoise_color = \"pink\"");
+    let (path, out) = (file(&folder, &text), folder.join("out"));
+    sweep(&path, &out, &[]);
+    let number = |name: &str| -> Vec<f64> {
+        let of = |field: &Field| if let Field::Double(x) = field { *x } else { panic!("{name}: {field:?}") };
+        column(&out, name).iter().map(of).collect()
+    };
+    let text = |name: &str| -> Vec<String> {
+        let of = |field: &Field| if let Field::Str(x) = field { x.clone() } else { panic!("{name}: {field:?}") };
+        column(&out, name).iter().map(of).collect()
+    };
+    assert_eq!(text("fault_type")[..4], ["normal", "outer", "inner", "rolling_element"]);
+    assert_eq!(text("fault_location")[..2], ["none", "test_bearing"]);
+    assert_eq!(number("fault_size_mm"), [0.0, 1.0, 1.0, 1.0, 0.0, 2.0, 2.0, 2.0]);
+    // From the bearing's dimensions, without slip.
+    let scene = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();
+    let bearing = brinell_scene_file::from_toml(&scene).unwrap().bearing;
+    let (count, ratio) = (bearing.element_count as f64, bearing.element_diameter / bearing.pitch_diameter);
+    let orders = [
+        ("bpfo", 0.5 * count * (1.0 - ratio)),
+        ("bpfi", 0.5 * count * (1.0 + ratio)),
+        ("bsf", 0.5 * (1.0 - ratio * ratio) / ratio),
+        ("ftf", 0.5 * (1.0 - ratio)),
+    ];
+    for (name, expected) in orders {
+        // Labels have 13 digits.
+        assert!(number(name).iter().all(|order| (order / expected - 1.0).abs() < 1e-11), "{name} {expected}");
+    }
+    assert_eq!(number("load"), number("label_load_n"));
+    assert!(number("fs").iter().all(|rate| *rate == 25_600.0) && text("load_unit").iter().all(|unit| unit == "N"));
+    let hertz = number("label_speed_hz");
+    assert!(number("speed_rpm").iter().zip(hertz).all(|(rpm, hertz)| (rpm / 60.0 / hertz - 1.0).abs() < 1e-11));
+    // Pink noise of 0.25: in 20 ms a third of it is too slow to vary; a healthy bearing alone moves by thousandths.
+    assert!(number("rms_m_s2").iter().all(|rms| *rms > 0.1), "{:?}", number("rms_m_s2"));
+    let why = refused(&file(&folder, &text_with(QUICK, "noise_color = \"blue\"")), &folder.join("blue"), &[]);
+    assert!(why.contains("noise_color is \"blue\"") && why.contains("pink"), "{why}");
+}
+
+/// A sweep with another line.
+fn text_with(text: &str, line: &str) -> String {
+    text.replace("seed = 3\n", &format!("seed = 3\n{line}\n"))
+}

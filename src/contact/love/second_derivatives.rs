@@ -1,0 +1,82 @@
+//! Second derivatives of law `love`: one or two more solutions with the factor of the last contact.
+//!
+//! On the pressed cells K p = g, with g = u − h(x − s) and W = ½ Σ p g. While their set stays as it is,
+//!
+//! ```text
+//! W_uu = 1ᵀ K⁻¹ 1    W_us = g_sᵀ K⁻¹ 1    W_ss = g_sᵀ K⁻¹ g_s + Σ p g_ss,    g_s = h′, g_ss = −h″
+//! ```
+//!
+//! with ½ in place of 1 in a row that lies on the middle of mirrored halves, in g, g_s and g_ss alike.
+
+use super::love_contact::{Layer, LoveContact};
+use super::raceway_grid::RacewayGrid;
+use super::row_pairs::PressedCell;
+use super::smooth_scale::Energy;
+use crate::contact::equivalent::SecondDerivatives;
+use crate::contact::error::ContactError;
+
+impl LoveContact {
+    /// Second derivatives where [`LoveContact::solve`] has value and slopes, exact for the pressed cells of that
+    /// contact: they step where a cell joins or leaves these and at the nodes of the smooth raceway's energy.
+    ///
+    /// Below the smallest contact, from whose path u₀ Δ is continued, ∂²Δ/∂u² = 0 and ∂²Δ/∂u∂s is that of Δ and of
+    /// ∂Δ/∂u. What `solve` has as ∂Δ/∂s lacks (u − u₀) ∂²Δ/∂u∂s there, and ∂²Δ/∂s² lacks (u − u₀) ∂³Δ/∂u∂s². At u₀
+    /// the slopes themselves step by some per cent, and rounding decides which of them is continued.
+    ///
+    /// # Errors
+    /// As [`LoveContact::solve`].
+    pub fn second_derivatives(&mut self, u: f64, s: f64) -> Result<SecondDerivatives, ContactError> {
+        let touch = self.first_touch(s);
+        if self.is_far(u, touch) {
+            return Ok(SecondDerivatives::default());
+        }
+        if u > touch && self.equivalent(u, s)?.value >= self.smooth.onset() {
+            return Ok(self.of_last_contact(s));
+        }
+        let (_, found) = self.at_onset(s, touch)?;
+        let SecondDerivatives { uu, us, ss } = self.of_last_contact(s);
+        // Along the onset du₀/ds = −Δ_s/Δ_u; Δ = Δ(u₀) + Δ_u(u₀, s) (u − u₀).
+        let turn = -found.ds / found.du;
+        Ok(SecondDerivatives { uu: 0.0, us: us + uu * turn, ss: ss - uu * turn * turn })
+    }
+
+    /// Of the contact that was solved last, at arc `s` (m).
+    fn of_last_contact(&mut self, s: f64) -> SecondDerivatives {
+        let (mut energy, mut sum) = (Energy::default(), SecondDerivatives::default());
+        let part = 1.0 / self.layers.len() as f64;
+        for layer in &mut self.layers {
+            energy.add(&layer.energy, part);
+            let SecondDerivatives { uu, us, ss } = layer.second_derivatives(s);
+            sum = SecondDerivatives { uu: sum.uu + part * uu, us: sum.us + part * us, ss: sum.ss + part * ss };
+        }
+        self.smooth.second_derivatives(energy, sum)
+    }
+}
+
+impl Layer {
+    /// Of the energy of the last contact, without the factor π E* × cell area.
+    fn second_derivatives(&mut self, s: f64) -> SecondDerivatives {
+        let mut of = SecondDerivatives::default();
+        self.apply_inverse(|_, _| 1.0);
+        for PressedCell { row, column, unknown, .. } in self.solver.cells() {
+            let by_u = self.grid.share(row) * self.unit[unknown];
+            of.uu += by_u;
+            of.us += by_u * self.grid.gap_derivatives(column, s)[0];
+        }
+        self.apply_inverse(|grid, column| grid.gap_derivatives(column, s)[0]);
+        for PressedCell { row, column, unknown, pressure } in self.solver.cells() {
+            let [slope, second] = self.grid.gap_derivatives(column, s);
+            of.ss += self.grid.share(row) * (slope * self.unit[unknown] - pressure * second);
+        }
+        of
+    }
+
+    /// K⁻¹ on the pressed cells of the last contact, applied to a function of the column.
+    fn apply_inverse(&mut self, value: impl Fn(&RacewayGrid, i32) -> f64) {
+        self.solver.right_hand_side(&mut self.unit);
+        for PressedCell { row, column, unknown, .. } in self.solver.cells() {
+            self.unit[unknown] = self.grid.share(row) * value(&self.grid, column);
+        }
+        self.solver.apply_inverse(&mut self.unit);
+    }
+}

@@ -1,0 +1,230 @@
+//! The forces of both contacts of one element, and what they exert on the rest of the bearing.
+
+use super::element_motion::ElementMotion;
+use super::kernel::{InnerGap, Meeting, film_on, normal_force};
+use crate::contact::law::CompliantContact;
+use crate::contact::rolling::RacewaySide;
+use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
+use crate::numerics::number::Scalar;
+use crate::numerics::plane::Vector;
+
+/// What the inner contact of an element follows from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InnerPlace<T> {
+    pub(super) element: usize,
+    /// Cell of the raceway and of the element's own defect.
+    pub(super) cells: [u32; 2],
+    /// Distance from the outer ring's centre, and path (m).
+    pub(super) rho: T,
+    pub(super) u: T,
+    /// Rings' offset (m), and rate of q (m/s), along and across e_r.
+    pub(super) offset: [T; 2],
+    pub(super) q_rate: [T; 2],
+    /// Angle of the element about the outer ring's centre (rad).
+    pub(super) angle: T,
+    pub(super) frames: Frames<T>,
+    pub(super) films: Option<OilFilms<T>>,
+    pub(super) curved: bool,
+}
+
+/// What the outer contact of an element follows from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OuterPlace<T> {
+    pub(super) element: usize,
+    pub(super) cells: [u32; 2],
+    /// Path (m) and its rate (m/s).
+    pub(super) u: T,
+    pub(super) path_rate: T,
+    /// Angle (rad) and speed (rad/s) of the element about the outer ring's centre.
+    pub(super) angle: T,
+    pub(super) omega: T,
+    pub(super) frames: Frames<T>,
+    pub(super) films: Option<OilFilms<T>>,
+    pub(super) curved: bool,
+}
+
+/// What a contact exerts on its element.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnElement<T> {
+    /// Force (N) along e_r, of the outer contact against it, and counter-clockwise.
+    pub(super) force: [T; 2],
+    /// Equivalent approach (m).
+    pub(super) approach: T,
+    /// The frame of the body that bears the defect.
+    pub(super) frame: Frame,
+}
+
+/// Forces on one element in parts along e_r and e_t, of the outer contact inwards.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct ElementForces<T: Scalar = f64> {
+    /// The element, at this motion.
+    pub(in crate::dynamics) at: ElementMotion<T>,
+    /// Distance from the outer ring's centre (m).
+    pub(in crate::dynamics) rho: T,
+    /// Force of the inner contact (N).
+    pub(in crate::dynamics) inner: Vector<T>,
+    /// Force of the outer contact (N).
+    pub(in crate::dynamics) outer: Vector<T>,
+    /// Direction, along e_r and e_t, and length of q (m).
+    pub(in crate::dynamics) n: [T; 2],
+    pub(in crate::dynamics) distance: T,
+    /// The frame of the body that bears the defect under each contact; `None` on smooth raceways.
+    pub(in crate::dynamics) frames: [Option<Frame>; 2],
+}
+
+/// A torque on a body with a defect.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct BodyTorque<T = f64> {
+    /// The frame in which the body turns.
+    pub(in crate::dynamics) frame: Frame,
+    /// About its own centre (N m).
+    pub(in crate::dynamics) torque: T,
+}
+
+impl<T: Scalar> ElementForces<T> {
+    /// Force on the inner and on the outer ring (N).
+    pub(in crate::dynamics) fn on_rings(&self) -> [Vector<T>; 2] {
+        [self.at.on_shaft(self.inner), self.at.on_housing(self.outer)]
+    }
+
+    /// Torques on the bodies with the defects under its contacts. A force on a smooth raceway goes through the ring's
+    /// centre.
+    pub(in crate::dynamics) fn torques(&self) -> impl Iterator<Item = BodyTorque<T>> {
+        let across = self.inner.y * self.n[0] - self.inner.x * self.n[1];
+        let torques = [-across * self.distance, -self.outer.y * self.rho];
+        self.frames
+            .into_iter()
+            .zip(torques)
+            .filter_map(|(frame, torque)| frame.map(|frame| BodyTorque { frame, torque }))
+    }
+}
+
+impl<T: Scalar> ElementMotion<T> {
+    /// A force on the inner ring (N) of a force of the inner contact on the element.
+    #[inline]
+    pub(in crate::dynamics) fn on_shaft(&self, inner: Vector<T>) -> Vector<T> {
+        -(self.e_r * inner.x + self.e_t * inner.y)
+    }
+
+    /// A force on the outer ring (N) of a force of the outer contact on the element.
+    #[inline]
+    pub(in crate::dynamics) fn on_housing(&self, outer: Vector<T>) -> Vector<T> {
+        self.e_r * outer.x - self.e_t * outer.y
+    }
+}
+
+impl Model {
+    /// The forces on an element, its contacts in these cells (see `Model::cells_of`).
+    pub(in crate::dynamics) fn element_forces<T: Scalar>(
+        &self,
+        cells: [[u32; 2]; 2],
+        at: &ElementMotion<T>,
+    ) -> ElementForces<T> {
+        let (place, beside) = (self.inner_place(cells[0], at), self.outer_place(cells[1], at));
+        let (inner, gap) = self.inner_contact(&self.inner.contact, &place);
+        let outer = self.outer_contact(&self.outer.contact, &beside);
+        let bearer = |cells: [u32; 2], frame| (cells != [SMOOTH; 2]).then_some(frame);
+        ElementForces {
+            at: *at,
+            rho: place.rho,
+            inner: inner.force.into(),
+            outer: outer.force.into(),
+            n: gap.n,
+            distance: gap.distance,
+            frames: [bearer(cells[0], inner.frame), bearer(cells[1], outer.frame)],
+        }
+    }
+
+    /// Torque on the cage about the outer ring's centre (N m) of an element with this tangential direction, speed and
+    /// acceleration (rad/s, rad/s²), path and rate of it (m, m/s), that its contacts push `around` with a force (N)
+    /// counter-clockwise; that about its own axis is left out.
+    ///
+    /// The kinematic cage forces each element to the tangential acceleration a_o·e_t + 2 u' ω + ρ ω'; what contacts and
+    /// gravity do not supply, it does. `acceleration` is the outer ring's (m/s²).
+    pub(in crate::dynamics) fn torque_on_cage<T: Scalar>(
+        &self,
+        e_t: Vector<T>,
+        [omega, alpha]: [T; 2],
+        [path, path_rate]: [T; 2],
+        around: T,
+        acceleration: Vector,
+    ) -> T {
+        let rho = path + T::from(self.outer_centre_radius);
+        let inertia = acceleration.map(T::from).dot(&e_t) + (path_rate + path_rate) * omega + rho * alpha;
+        rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.element_mass))
+    }
+
+    pub(super) fn inner_place<T: Scalar>(&self, cells: [u32; 2], at: &ElementMotion<T>) -> InnerPlace<T> {
+        let ElementMotion { e_r, e_t, offset, drift, .. } = at;
+        let rho = at.path + T::from(self.outer_centre_radius);
+        InnerPlace {
+            element: at.element,
+            cells,
+            rho,
+            u: at.path,
+            offset: [offset.dot(e_r), offset.dot(e_t)],
+            q_rate: [drift.dot(e_r) + at.path_rate, drift.dot(e_t) + rho * at.omega],
+            angle: at.angle,
+            frames: at.frames,
+            films: at.oil_films(),
+            curved: at.curved,
+        }
+    }
+
+    pub(super) fn outer_place<T: Scalar>(&self, cells: [u32; 2], at: &ElementMotion<T>) -> OuterPlace<T> {
+        OuterPlace {
+            element: at.element,
+            cells,
+            u: at.path,
+            path_rate: at.path_rate,
+            angle: at.angle,
+            omega: at.omega,
+            frames: at.frames,
+            films: at.oil_films(),
+            curved: at.curved,
+        }
+    }
+
+    /// The inner contact, and the gap it is in.
+    #[inline(always)]
+    pub(super) fn inner_contact<T: Scalar>(
+        &self,
+        contact: &CompliantContact,
+        place: &InnerPlace<T>,
+    ) -> (OnElement<T>, InnerGap<T>) {
+        let InnerPlace { element, cells, q_rate, frames, films, .. } = place;
+        let clearance = self.clearance_between(films.as_ref());
+        let gap = InnerGap::of(place.rho, place.u, place.offset, clearance, false);
+        let film = film_on(films.as_ref(), RacewaySide::Inner);
+        if *cells == [SMOOTH; 2] {
+            let (force, _) = normal_force(contact, film, gap.approach, gap.closing(*q_rate));
+            let force = [force * gap.n[0], force * gap.n[1]];
+            return (OnElement { force, approach: gap.approach, frame: Frame::Housing }, gap);
+        }
+        let (element, cells, direction) = (*element, *cells, place.angle + gap.lead());
+        let (u, distance, curved) = (gap.approach, gap.distance, place.curved);
+        let at = Meeting { element, cells, u, direction, distance, curved };
+        let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames);
+        let rates = [gap.closing(*q_rate), gap.turning(*q_rate)];
+        let found = near.force(contact, film, rates, frames);
+        (OnElement { force: gap.turned(found.force), approach: found.approach, frame: near.frame }, gap)
+    }
+
+    /// The outer contact.
+    #[inline(always)]
+    pub(super) fn outer_contact<T: Scalar>(&self, contact: &CompliantContact, place: &OuterPlace<T>) -> OnElement<T> {
+        let OuterPlace { element, cells, u, angle, frames, films, .. } = place;
+        let film = film_on(films.as_ref(), RacewaySide::Outer);
+        if *cells == [SMOOTH; 2] {
+            let (force, _) = normal_force(contact, film, *u, place.path_rate);
+            return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };
+        }
+        let distance = *u + T::from(self.outer_centre_radius);
+        let (element, cells, curved) = (*element, *cells, place.curved);
+        let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
+        let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames);
+        let rates = [place.path_rate, place.omega];
+        let found = near.force(contact, film, rates, frames);
+        OnElement { force: found.force, approach: found.approach, frame: near.frame }
+    }
+}

@@ -1,0 +1,233 @@
+//! One contact of one element: place, motion, law → force. Written once, for every kind of number: one element, eight
+//! side by side, and either with derivatives.
+//!
+//! With ρ the distance of the element from the outer ring's centre and the rings' offset p along and t across e_r,
+//! ```text
+//! q = (ρ + p, t)   n = q/|q|   δ_i = −G − u − p − t²/(|q| + q_r)   δ̇_i = −n·q̇   φ̇ = (n_r q̇_t − n_t q̇_r)/|q|
+//! f_i = Q(δ_i, δ̇_i) n          f_o = Q(u, u′)                     on smooth raceways
+//! Δ̇ = Δ_u δ̇ + Δ_ψ (φ̇ − ω_f)   f = Q(Δ, Δ̇) (R n + T t)           near a defect
+//! ```
+//! Outside δ is u, n is e_r and φ̇ the element's speed; there R and T point inwards and counter-clockwise.
+
+use crate::contact::error::ContactError;
+use crate::contact::law::{CompliantContact, SqueezeFilm};
+use crate::contact::near_defect::Approach;
+use crate::contact::rolling::RacewaySide;
+use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
+use crate::numerics::number::Number;
+use crate::numerics::number::Scalar;
+
+/// An element seen from the inner ring's centre.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct InnerGap<T> {
+    /// δ_i (m)
+    pub(in crate::dynamics) approach: T,
+    /// n = q/|q|, radial and tangential.
+    pub(in crate::dynamics) n: [T; 2],
+    /// |q| (m)
+    pub(in crate::dynamics) distance: T,
+}
+
+/// Where one contact of an element is, and in which cells.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Meeting<T = f64> {
+    /// The element, from 0.
+    pub(in crate::dynamics) element: usize,
+    /// Cell of the raceway, and cell of the element's own defect.
+    pub(in crate::dynamics) cells: [u32; 2],
+    /// Approach to the smooth raceway (m).
+    pub(in crate::dynamics) u: T,
+    /// Direction of the element from the ring's centre (rad).
+    pub(in crate::dynamics) direction: T,
+    /// Distance of the element from the ring's centre (m).
+    pub(in crate::dynamics) distance: T,
+    /// Whether derivatives are to know of curvatures along the surface (`ElementMotion::curved`).
+    pub(in crate::dynamics) curved: bool,
+}
+
+/// The surface under a contact.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Near<T> {
+    /// Equivalent approach.
+    pub(in crate::dynamics) approach: Approach<T>,
+    /// What the body turns with that bears the defect.
+    pub(in crate::dynamics) frame: Frame,
+}
+
+/// What one contact exerts on the element.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct ContactForce<T> {
+    /// Equivalent approach Δ (m).
+    pub(in crate::dynamics) approach: T,
+    /// The contact's own part of it (m), and the rate at which its damper acts (m/s).
+    pub(in crate::dynamics) part: [T; 2],
+    /// Parts of the force (N): away from the raceway along the direction in which they touch, and counter-clockwise.
+    pub(in crate::dynamics) force: [T; 2],
+    /// Magnitude of the force (N).
+    pub(in crate::dynamics) magnitude: T,
+}
+
+impl<T: Number> InnerGap<T> {
+    /// Of an element at path `u` (m), `rho` (m) from the outer ring's centre, with the rings' `offset` (m) along and
+    /// across its direction. `series`: |q| − q_r = t (t/q_r)/2 − … and the direction of q are series in t/q_r
+    /// ([`Model::nearly_concentric`]). Written so that δ_i loses no digits to the radii's 20 mm.
+    #[inline(always)]
+    pub(in crate::dynamics) fn of(rho: T, u: T, [p, t]: [T; 2], clearance: T, series: bool) -> Self {
+        let q_r = rho + p;
+        let (longer, n, distance) = if series {
+            let slope = t / q_r;
+            let (x, number) = (slope * slope, |number| p.all(number));
+            let n_r = number(1.0) - x * (number(0.5) - x * p.plain(0.375));
+            let longer = t * slope * (number(0.5) - x * (number(0.125) - x * p.plain(0.0625)));
+            (longer, [n_r, slope * n_r], q_r + longer)
+        } else {
+            let square = t * t;
+            let distance = (q_r * q_r + square).sqrt();
+            (square / (distance + q_r), [q_r / distance, t / distance], distance)
+        };
+        Self { approach: -clearance - u - p - longer, n, distance }
+    }
+
+    /// Rate δ̇ (m/s) as q changes at `q_rate` (m/s).
+    #[inline(always)]
+    pub(in crate::dynamics) fn closing(&self, [q_r, q_t]: [T; 2]) -> T {
+        let [n_r, n_t] = self.n;
+        -(n_r * q_r + n_t * q_t)
+    }
+
+    /// Rate φ̇ (rad/s) of its direction from the inner ring's centre.
+    #[inline(always)]
+    pub(in crate::dynamics) fn turning(&self, [q_r, q_t]: [T; 2]) -> T {
+        let [n_r, n_t] = self.n;
+        (n_r * q_t - n_t * q_r) / self.distance
+    }
+
+    /// Parts along and counter-clockwise of e_r of a force along and counter-clockwise of n.
+    #[inline(always)]
+    pub(in crate::dynamics) fn turned(&self, [along, across]: [T; 2]) -> [T; 2] {
+        let [n_r, n_t] = self.n;
+        [along * n_r - across * n_t, along * n_t + across * n_r]
+    }
+}
+
+impl<T: Scalar> InnerGap<T> {
+    /// Angle φ − θ (rad) between the element's directions from the inner ring's centre and from the outer's.
+    #[inline(always)]
+    pub(in crate::dynamics) fn lead(&self) -> T {
+        T::angle_of(self.n)
+    }
+}
+
+impl<T: Scalar> Near<T> {
+    /// The smooth raceway at approach `u` (m).
+    #[inline(always)]
+    pub(in crate::dynamics) fn smooth(u: T) -> Self {
+        Self { approach: Approach::smooth(u), frame: Frame::Housing }
+    }
+
+    /// Force of the contact of this `law` whose approach and angle change at these rates (m/s, rad/s), with the film
+    /// between the surfaces.
+    #[inline(always)]
+    pub(in crate::dynamics) fn force(
+        &self,
+        law: &CompliantContact,
+        film: Option<&SqueezeFilm<T>>,
+        [closing, turning]: [T; 2],
+        frames: &Frames<T>,
+    ) -> ContactForce<T> {
+        let Approach { value, by_path, by_angle, radial, tangential } = self.approach;
+        let rate = by_path * closing + by_angle * (turning - frames.of(self.frame).speed);
+        let (force, part) = normal_force(law, film, value, rate);
+        ContactForce {
+            approach: value,
+            part,
+            force: [force * radial, force * tangential],
+            magnitude: force * (radial * radial + tangential * tangential).sqrt(),
+        }
+    }
+}
+
+impl Model {
+    /// The surface under a contact, of the element's own defect and of the raceway's the one that carries less.
+    ///
+    /// Inlined, so that what its caller does not use is not worked out.
+    ///
+    /// # Errors
+    /// Where the contact law has no answer.
+    #[inline(always)]
+    pub(in crate::dynamics) fn near<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        at: &Meeting<T>,
+        frames: &Frames<T>,
+    ) -> Result<Near<T>, ContactError> {
+        if at.cells[1] != SMOOTH {
+            return self.near_own_defect(side, at, frames);
+        }
+        let defects = &self.raceway(side).defects;
+        let approach = defects.approach(at.cells[0], at.u, at.direction, frames, at.distance, at.curved)?;
+        Ok(Near { approach, frame: defects.frame })
+    }
+
+    /// As [`Self::near`], the smooth raceway included; NaN where the contact law has no answer.
+    pub(in crate::dynamics) fn near_or_unsolved<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        at: &Meeting<T>,
+        frames: &Frames<T>,
+    ) -> Near<T> {
+        if at.cells == [SMOOTH; 2] {
+            return Near::smooth(at.u);
+        }
+        self.near(side, at, frames).unwrap_or(Near { approach: Approach::unsolved(), frame: Frame::Housing })
+    }
+
+    /// As [`Self::near`], of an element in a cell of its own defect.
+    #[inline(never)]
+    fn near_own_defect<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        at: &Meeting<T>,
+        frames: &Frames<T>,
+    ) -> Result<Near<T>, ContactError> {
+        let [ring, own] = at.cells;
+        let defective = self.defective.iter().find(|defective| defective.element == at.element);
+        let approach = defective.map_or(Ok(Approach::smooth(at.u)), |defective| {
+            defective.defects[side as usize].approach(own, at.u, at.direction, frames, at.distance, at.curved)
+        })?;
+        let own = Near { approach, frame: Frame::Spin };
+        if ring == SMOOTH {
+            return Ok(own);
+        }
+        let ring = self.near(side, &Meeting { cells: [ring, SMOOTH], ..*at }, frames)?;
+        Ok(if own.approach.value.value() < ring.approach.value.value() { own } else { ring })
+    }
+
+    /// One of the raceways.
+    #[inline(always)]
+    pub(in crate::dynamics) fn raceway(&self, side: RacewaySide) -> &Raceway {
+        match side {
+            RacewaySide::Inner => &self.inner,
+            RacewaySide::Outer => &self.outer,
+        }
+    }
+}
+
+/// Q(Δ, Δ̇) of a contact with the film between its surfaces (N), and the contact's own part of approach and rate.
+#[inline(always)]
+pub(super) fn normal_force<T: Scalar>(
+    law: &CompliantContact,
+    film: Option<&SqueezeFilm<T>>,
+    approach: T,
+    rate: T,
+) -> (T, [T; 2]) {
+    let (part, part_rate) = law.of_contact(approach, rate);
+    let force = law.law.force(part, part_rate);
+    (film.map_or(force, |film| force + film.force(approach, rate)), [part, part_rate])
+}
+
+/// The film of one raceway.
+#[inline(always)]
+pub(in crate::dynamics) fn film_on<T>(films: Option<&OilFilms<T>>, side: RacewaySide) -> Option<&SqueezeFilm<T>> {
+    films.map(|films| &films.squeeze[side as usize])
+}

@@ -1,0 +1,206 @@
+//! Contacts that are not those of smooth rigid raceways: near defects, and on an outer raceway that yields. One at a
+//! time, before the others.
+
+use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
+use super::kernel::{ContactForce, Meeting, Near};
+use crate::contact::error::ContactError;
+use crate::contact::law::CompliantContact;
+use crate::contact::near_defect::Approach;
+use crate::contact::rolling::RacewaySide;
+use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, SMOOTH, moved};
+use crate::numerics::lanes::{Kernel, WIDEST, Wide};
+use crate::numerics::plane::{Vector, turned, turned_by};
+
+impl Model {
+    /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
+    ///
+    /// They come first, so that what they add to an element's acceleration is long written when all elements' are read.
+    #[inline(always)]
+    fn non_smooth_outer_contacts<const RECORD: bool>(
+        &self,
+        now: &Kinematics,
+        state: &[f64],
+        ahead: Option<f64>,
+        forces: &mut Forces,
+    ) -> Vector {
+        let Forces { non_smooth_outer, non_smooth_contacts: [_, contacts], elements, torques, .. } = forces;
+        let (frames, films) = (&forces.frames, forces.films.as_ref());
+        let (defect_lookups, unsolved) = (&mut forces.defect_lookups, &mut forces.unsolved);
+        if RECORD {
+            contacts.clear();
+        }
+        let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
+        let (law, film) = (&self.outer.contact, films.map(|films| &films.squeeze[RacewaySide::Outer as usize]));
+        for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
+            let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
+            let [angle, speed] = self.turning(j, now, sum.elements);
+            let meeting = self.outer_meeting_at(angle, j, cells, u);
+            // Each way to the end with its own numbers: what is one or another is written to memory and read late.
+            if cells == [SMOOTH; 2] {
+                let near = Near::smooth(u);
+                let found = near.force(law, film, [path_rate, speed], frames);
+                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
+            } else {
+                *defect_lookups += 1;
+                let near = self.near(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
+                    self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
+                });
+                let found = near.force(law, film, [path_rate, speed], frames);
+                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
+            }
+        }
+        sum.on_housing
+    }
+
+    /// Where element `j` is, its path moved on by the time that is still `ahead`.
+    #[inline(always)]
+    fn on_path(
+        &self,
+        j: usize,
+        now: &Kinematics,
+        state: &[f64],
+        ahead: Option<f64>,
+        elements: &[ElementBlock],
+    ) -> OnPath {
+        let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
+        let (sin, cos) = (block.sin[i], block.cos[i]);
+        let e_r = turned_by(cage.direction, sin, cos);
+        let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
+        let u = moved(state[j], path_rate, ahead);
+        OnPath { element: j, e_r, u, path_rate, inverse_mass: self.inverse_element_mass }
+    }
+
+    /// Angle (rad) of element `j` about the outer ring's centre, and its speed (rad/s).
+    #[inline(always)]
+    fn turning(&self, j: usize, now: &Kinematics, elements: &[ElementBlock]) -> [f64; 2] {
+        let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
+        [cage.angle + self.element_offset(j) + block.lead[i], cage.speed * block.pace[i]]
+    }
+
+    /// The inner contacts near defects; gives their force on the inner ring. After the outer ones, to whose part of an
+    /// element's acceleration they add.
+    #[inline(never)]
+    pub(in crate::dynamics) fn non_smooth_inner_contacts<const RECORD: bool>(
+        &self,
+        now: &Kinematics,
+        state: &[f64],
+        ahead: Option<f64>,
+        forces: &mut Forces,
+    ) -> Vector {
+        let mut on_shaft = Vector::zeros();
+        let Forces { non_smooth_inner, non_smooth_outer, non_smooth_contacts: [contacts, _], elements, .. } = forces;
+        let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
+        let (frames, films) = (&forces.frames, forces.films.as_ref());
+        let clearance = self.clearance(films);
+        let (law, film) = (&self.inner.contact, films.map(|films| &films.squeeze[RacewaySide::Inner as usize]));
+        if RECORD {
+            contacts.clear();
+        }
+        for &NonSmooth { element: j, cells } in non_smooth_inner.iter() {
+            let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
+            let [angle, speed] = self.turning(j, now, elements);
+            *lookups += 1;
+            let gap = self.inner_gap(u, now.offset(), e_r, clearance);
+            let at = self.inner_meeting(j, cells, &gap, angle);
+            let near = self
+                .near(RacewaySide::Inner, &at, frames)
+                .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
+            let around = (self.outer_centre_radius + u) * speed;
+            let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
+            let found = near.force(law, film, [gap.closing(q_rate), gap.turning(q_rate)], frames);
+            let [f_r, f_t] = gap.turned(found.force);
+            let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
+            let of_outer = if non_smooth_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
+            *acceleration = of_outer + f_r * self.inverse_element_mass;
+            on_shaft -= e_r * f_r + turned(e_r) * f_t;
+            if RECORD {
+                torques[near.frame as usize] -= found.force[1] * gap.distance;
+                contacts.push(NonSmoothContact::new(j, law, &found, [f_r, f_t]));
+            }
+        }
+        on_shaft
+    }
+
+    /// What stands for a contact near a defect that has no answer, which is kept.
+    #[cold]
+    fn without_answer(
+        &self,
+        side: RacewaySide,
+        at: &Meeting,
+        now: &Kinematics,
+        frames: &Frames,
+        cause: ContactError,
+        unsolved: &mut Option<UnsolvedContact>,
+    ) -> Near<f64> {
+        // NaN here has its cause elsewhere.
+        if (at.u + now.cage.angle).is_finite() {
+            let angle = self.angle_from_defect(side, at, frames);
+            *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
+        }
+        Near { approach: Approach::unsolved(), frame: Frame::Housing }
+    }
+}
+
+impl NonSmoothContact {
+    #[inline(always)]
+    fn new(element: usize, law: &CompliantContact, found: &ContactForce<f64>, [radial, tangential]: [f64; 2]) -> Self {
+        let ContactForce { approach, part, magnitude, .. } = *found;
+        Self { element, approach, pushing: law.law.pushing(part[0], part[1]), force: [magnitude, radial, tangential] }
+    }
+}
+
+/// What outer contacts that are not those of the smooth rigid raceway add up to.
+struct OuterSum<'a> {
+    on_housing: Vector,
+    elements: &'a mut [ElementBlock],
+    torques: &'a mut [f64; 3],
+    contacts: &'a mut Vec<NonSmoothContact>,
+}
+
+impl OuterSum<'_> {
+    #[inline(always)]
+    fn add<const RECORD: bool>(
+        &mut self,
+        law: &CompliantContact,
+        &OnPath { element: j, e_r, inverse_mass, .. }: &OnPath,
+        found: &ContactForce<f64>,
+        (frame, distance): (Frame, f64),
+    ) {
+        let [f_r, f_t] = found.force;
+        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * inverse_mass;
+        self.on_housing += e_r * f_r - turned(e_r) * f_t;
+        if RECORD {
+            self.torques[frame as usize] -= f_t * distance;
+            self.contacts.push(NonSmoothContact::new(j, law, found, [f_r, f_t]));
+        }
+    }
+}
+
+/// An element on its path.
+struct OnPath {
+    element: usize,
+    e_r: Vector,
+    u: f64,
+    path_rate: f64,
+    inverse_mass: f64,
+}
+
+/// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's
+/// instructions: what mixes with wide registers and is made for others waits for them.
+pub(in crate::dynamics) struct NonSmoothOuter<'a, const RECORD: bool> {
+    pub(in crate::dynamics) model: &'a Model,
+    pub(in crate::dynamics) now: &'a Kinematics,
+    pub(in crate::dynamics) state: &'a [f64],
+    /// Time (s) by which paths are still to be moved on along their rates.
+    pub(in crate::dynamics) ahead: Option<f64>,
+    pub(in crate::dynamics) forces: &'a mut Forces,
+}
+
+impl<const RECORD: bool> Kernel for NonSmoothOuter<'_, RECORD> {
+    type Output = Vector;
+
+    #[inline(always)]
+    fn run<S: Wide>(self, _: S) -> Vector {
+        self.model.non_smooth_outer_contacts::<RECORD>(self.now, self.state, self.ahead, self.forces)
+    }
+}

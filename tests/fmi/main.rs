@@ -1,0 +1,18 @@
+//! The rules of FMI, each shown by a test that calls the exported C functions as a host would.
+//!
+//! `unsafe` is what a C interface is called with; each test passes only what its sentence says.
+#![allow(unsafe_code)]
+// What helpers unwrap is the test's own set-up.
+#![allow(clippy::unwrap_used)]
+
+mod allocations;
+#[path = "../support/counting.rs"]
+mod counting;
+#[path = "../fmi2/mod.rs"]
+mod fmi2;
+#[path = "../fmi3/mod.rs"]
+mod fmi3;
+#[path = "../fmi3/host.rs"]
+mod three;
+#[path = "../fmi2/host.rs"]
+mod two;
