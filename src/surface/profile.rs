@@ -1,4 +1,4 @@
-//! Depth of the outer raceway along its arc, the same over the whole width: a polygon.
+//! Depth of a surface along its arc, the same over the whole width: a polygon.
 //!
 //! h(s) is linear between its points. Two points at one arc are a vertical edge. Outside its points h = 0; where the
 //! first or last point is not at depth 0 the profile ends in a vertical edge.

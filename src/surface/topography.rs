@@ -1,4 +1,4 @@
-//! A measured topography of the outer raceway: depth over arc and width, bilinear between the points of a rectangular
+//! A measured topography of a surface: depth over arc and width, bilinear between the points of a rectangular
 //! grid.
 //!
 //! With the hat functions N of the grid lines, h(s, y) = Σ_ij N_i(s) N_j(y) h_ij. The mean over a cell is a sum of

@@ -1,4 +1,4 @@
-//! A measured trace of the outer raceway: `arc_mm`, `depth_um`.
+//! A measured trace of a surface: `arc_mm`, `depth_um`.
 //!
 //! Depths are taken as they are, positive into the ring: level the trace and set its smooth ends to 0 before. The
 //! middle of the arc's range is put at the defect's angle, whatever the origin of the measurement.

@@ -146,7 +146,7 @@ fn node(depths: &[f64], approach: f64, s: f64) -> [f64; 2] {
 }
 
 /// The cubic between two values with slopes per step, slopes lessened where it would not be monotonic. That of
-/// `numerics::hermite` adds its terms in another order, and rollers would have other bits.
+/// `numerics::polynomials::hermite` adds its terms in another order, and rollers would have other bits.
 fn monotonic([[from, leaving], [to, arriving]]: [[f64; 2]; 2]) -> [f64; 4] {
     let rise = to - from;
     let (leaving, arriving) = (leaving.min(3.0 * rise), arriving.min(3.0 * rise));

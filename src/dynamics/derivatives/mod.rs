@@ -1,4 +1,4 @@
-//! Derivatives of the equations of motion: Jacobian, tangent stiffness, change with an input.
+//! Derivatives of the equations of motion: the Jacobian, and the change with an input or by time.
 
 pub mod jacobian;
 pub mod variation;

@@ -1,4 +1,5 @@
-//! Elements without inertia, which are in balance between both raceways at every instant.
+//! Elements in balance between both raceways: those without inertia at every instant, all others at the start. And
+//! what that makes of the forces on the rings: the tangent stiffness.
 
 mod balance_lanes;
 mod element_balance;

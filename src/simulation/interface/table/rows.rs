@@ -283,7 +283,7 @@ impl Builder<'_> {
             pair("v*", ["Velocity of", ""], Q::Velocity, Unit::MetrePerSecond, 1e-2);
             pair("a*", ["Acceleration of", ""], Q::Acceleration, Unit::MetrePerSecondSquared, 10.0);
         }
-        // Which of the two forces belongs to which master is measured by examples/masters.py.
+        // Which of the two forces belongs to which co-simulation algorithm: docs/systems.md.
         let hosted = motion == Motion::Host;
         let after =
             if hosted { "; with its derivative by time for a master that steps all units in parallel" } else { "" };
