@@ -15,7 +15,6 @@
 mod api_derivatives;
 mod api_life;
 mod api_model_exchange;
-mod api_state;
 mod api_step;
 mod api_variables;
 mod functions;
@@ -26,7 +25,6 @@ mod types;
 pub use api_derivatives::*;
 pub use api_life::*;
 pub use api_model_exchange::*;
-pub use api_state::*;
 pub use api_step::*;
 pub use api_variables::*;
 pub use brinell::simulation::interface::Category;
