@@ -15,5 +15,4 @@ pub use fmu::write;
 pub use library::{Binary, Choice, Library};
 pub use model::{Model, Profile, SceneFiles, read_all, read_scene};
 pub use reference::Reference;
-
-pub(crate) use template::render;
+pub use template::render;
