@@ -1,13 +1,11 @@
-//! The exported functions that begin, arrange and end the life of an instance, and save and restore its state.
+//! The exported functions that begin and arrange the life of an instance.
 
 #![allow(non_snake_case)]
 
 use std::ptr;
 
 use super::functions;
-use super::types::{
-    Boolean, Byte, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuState, FmuType, Real, Status,
-};
+use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
 use crate::c_interface::{Logger, uri};
 use crate::instance::{Clock, Failure, Mode};
 use crate::instantiation::{Refusal, text};
@@ -112,19 +110,4 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> Status {
         instance.enter(Mode::Initialization, &functions::ENTER_INITIALIZATION_MODE);
         Ok(())
     })
-}
-
-crate::both_versions::functions! {
-    boolean: Boolean, byte: Byte, logging: switch,
-    free_instance: fmi2FreeInstance,
-    set_debug_logging: fmi2SetDebugLogging,
-    exit_initialization_mode: fmi2ExitInitializationMode,
-    terminate: fmi2Terminate,
-    reset: fmi2Reset,
-    get_state: fmi2GetFMUstate,
-    set_state: fmi2SetFMUstate,
-    free_state: fmi2FreeFMUstate,
-    serialized_state_size: fmi2SerializedFMUstateSize,
-    serialize_state: fmi2SerializeFMUstate,
-    deserialize_state: fmi2DeSerializeFMUstate,
 }

@@ -12,6 +12,7 @@
 //! | `functions` | in which modes each function may be called |
 //! | `api_*` | the exported functions, grouped as the standard groups them |
 
+mod api_both_versions;
 mod api_derivatives;
 mod api_life;
 mod api_model_exchange;
@@ -22,6 +23,7 @@ mod functions;
 mod tests;
 mod types;
 
+pub use api_both_versions::*;
 pub use api_derivatives::*;
 pub use api_life::*;
 pub use api_model_exchange::*;

@@ -1,4 +1,4 @@
-//! The exported functions that begin, arrange and end the life of an instance, and save and restore its state.
+//! The exported functions that begin and arrange the life of an instance.
 
 #![allow(non_snake_case)]
 
@@ -7,7 +7,7 @@ use std::slice;
 
 use super::functions;
 use super::types::{
-    Bool, ClockUpdateCallback, FALSE, FmiString, FmuState, Instance, InstanceEnvironment, IntermediateUpdateCallback,
+    Bool, ClockUpdateCallback, FALSE, FmiString, Instance, InstanceEnvironment, IntermediateUpdateCallback,
     LogMessageCallback, PreemptionCallback, Status, ValueReference,
 };
 use crate::c_interface::{Logger, uri};
@@ -202,19 +202,4 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
         instance.enter(Mode::Initialization, &functions::ENTER_INITIALIZATION_MODE);
         Ok(())
     })
-}
-
-crate::both_versions::functions! {
-    boolean: Bool, byte: u8, logging: turn,
-    free_instance: fmi3FreeInstance,
-    set_debug_logging: fmi3SetDebugLogging,
-    exit_initialization_mode: fmi3ExitInitializationMode,
-    terminate: fmi3Terminate,
-    reset: fmi3Reset,
-    get_state: fmi3GetFMUState,
-    set_state: fmi3SetFMUState,
-    free_state: fmi3FreeFMUState,
-    serialized_state_size: fmi3SerializedFMUStateSize,
-    serialize_state: fmi3SerializeFMUState,
-    deserialize_state: fmi3DeserializeFMUState,
 }

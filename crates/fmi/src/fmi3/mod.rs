@@ -11,6 +11,7 @@
 //! | `values` | how scalars and arrays are read and set |
 //! | `api_*` | the exported functions, grouped as the standard groups them |
 
+mod api_both_versions;
 mod api_dependencies;
 mod api_derivatives;
 mod api_life;
@@ -23,6 +24,7 @@ mod tests;
 mod types;
 mod values;
 
+pub use api_both_versions::*;
 pub use api_dependencies::*;
 pub use api_derivatives::*;
 pub use api_life::*;
