@@ -152,8 +152,8 @@ fn outputs(simulation: &Simulation) -> Vec<(&'static str, u32)> {
         let mut rows = simulation.table().iter();
         rows.find(|row| row.name == name && row.causality == Causality::Output).map(|row| row.reference)
     };
-    let found = IMPORTANT.iter().filter_map(|&name| output(name).map(|reference| (name, reference)));
-    found.take(MOST_VARIABLES).collect()
+    let present = IMPORTANT.iter().filter_map(|&name| output(name).map(|reference| (name, reference)));
+    present.take(MOST_VARIABLES).collect()
 }
 
 /// What the host tells the FMU.
