@@ -6,7 +6,7 @@ use minijinja::{Environment, Output, State, Value};
 use quick_xml::escape::escape;
 
 /// A template, filled. By the ending of its name values are escaped as text of HTML, as attributes of XML, or, of
-/// Markdown, left as they are.
+/// Markdown and TOML, left as they are.
 ///
 /// # Errors
 /// Of the template.
@@ -23,7 +23,7 @@ fn escaped(out: &mut Output<'_>, state: &mut State<'_, '_>, value: &Value) -> Re
     let escaped = || escape(text.as_str());
     Ok(match state.name().rsplit_once('.') {
         _ if value.is_safe() => out.write_str(&text),
-        Some((_, "md")) => out.write_str(&text),
+        Some((_, "md" | "toml")) => out.write_str(&text),
         // A reader of XML takes line ends and tabs of an attribute for spaces.
         Some((_, "xml")) => out.write_str(&escaped().replace('\n', "&#10;").replace('\t', "&#9;")),
         _ => out.write_str(&escaped()),
