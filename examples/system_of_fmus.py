@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A bearing and an elastic rotor, two FMUs wired in an SSP file: error over master, wiring and step, as Markdown.
+"""A bearing and an elastic rotor, two FMUs wired in an SSP file: error over algorithm, wiring and step, as Markdown.
 
     python examples/system_of_fmus.py [--build] [--short] [-o target/examples]
 
@@ -9,7 +9,7 @@ half is added. The error is that of its position, rms over rms of its way, again
 the scene's own `shaft.mass_kg` and `shaft.stiffness_n_m`, no coupling at all.
 
 `--build` writes the systems only, bearing and rotor in one `.ssp` each (System Structure and Parameterization 1.0):
-`healthy-force.ssp`, `healthy-mean_force.ssp`, `spalled-force.ssp`, `spalled-mean_force.ssp`, by what the rotor is told.
+`healthy-force.ssp`, `healthy-mean_force.ssp`, `spalled-force.ssp`, `spalled-mean_force.ssp`, by what the rotor gets.
 
 Masters that read them:
   ours      parallel (Jacobi) and sequential (Gauss-Seidel, in the order of the file), inputs held, continued with the
@@ -93,7 +93,7 @@ def connector(name, kind):
 
 
 def structure(bearing, force, start):
-    """SystemStructure.ssd: bearing first, which is the order in which a sequential master steps."""
+    """SystemStructure.ssd: bearing first, which is the order in which a sequential algorithm steps."""
     forces = {f"shaft.{force}.{axis}": f"force.{axis}" for axis in "xy"}
     to_bearing = "".join(connector(name, "input") for name in MOTION.values())
     from_bearing = "".join(connector(name, "output") for name in forces)
@@ -175,8 +175,8 @@ class Unit(Instance):
             self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, pointer)
 
 
-def ours(kind, told):
-    """A master: `kind` parallel or sequential; inputs `told` held, with the other's derivative, or interpolated."""
+def ours(kind, handover):
+    """An algorithm: `kind` parallel or sequential; inputs by `handover` held, with derivative, or interpolated."""
 
     def run(ssp, h, stop):
         system = read_ssd(str(ssp)).system
@@ -188,7 +188,7 @@ def ours(kind, told):
             wires[component.name] = [(name, units[name].names.index(output)) for name, output in sources]
         rotor = units["rotor"]
         try:
-            # What the rotor starts from moves the bearing, whose force the rotor is then told.
+            # What the rotor starts from moves the bearing, whose force the rotor then gets.
             for name in ("bearing", "rotor"):
                 given = {other: unit.give() for other, unit in units.items()}
                 units[name].tell([given[other][i] for other, i in wires[name]])
@@ -196,7 +196,7 @@ def ours(kind, told):
                 unit.run()
             positions, every = [rotor.give()[:2]], round(GRID / h)
             for count in range(1, round(stop / h) + 1):
-                step(units, wires, h, kind, told)
+                step(units, wires, h, kind, handover)
                 if not np.all(np.abs(rotor.give()[:2]) < 1e-3):
                     raise RuntimeError(f"unstable at {count * h:.4g} s")
                 if count % every == 0:
@@ -209,16 +209,16 @@ def ours(kind, told):
     return run
 
 
-def step(units, wires, h, kind, told):
+def step(units, wires, h, kind, handover):
     """One communication step of all units."""
     begin = {name: unit.give() for name, unit in units.items()}
     slopes = {name: np.zeros(len(values)) for name, values in begin.items()}
-    if told == "derivative":
+    if handover == "derivative":
         slopes.update({name: unit.derivatives() for name, unit in units.items() if unit.gives_derivatives})
     known = dict(begin)
     for name, unit in units.items():
         values = [known[other][i] for other, i in wires[name]]
-        if told == "interpolated":
+        if handover == "interpolated":
             # Of those that have stepped already: from where they were to where they are.
             values = [begin[other][i] for other, i in wires[name]]
             slopes = {other: (known[other] - begin[other]) / h for other in known}
@@ -252,8 +252,8 @@ def by_fmpy(ssp, h, stop):
     return np.vstack([start_of(ssp), positions[round(GRID / h) - 1 :: round(GRID / h)]])
 
 
-# Whose master, how it steps, what the rotor is told, and of which system.
-MASTERS = [
+# Whose algorithm, how it steps, what the rotor gets, and of which system.
+ALGORITHMS = [
     ("ours", "parallel", "`mean_force`, held", "mean_force", ours("parallel", "held")),
     ("ours", "parallel", "`force`, held", "force", ours("parallel", "held")),
     ("ours", "parallel", "`force` and its derivative", "force", ours("parallel", "derivative")),
@@ -286,7 +286,7 @@ def main():
     fmus = fmus_in(options.output)
     rotor = rotor_fmu(options.output)
     if not options.build:
-        heads = ["bearing", "whose", "master", "the rotor is told", *(f"{h * 1e6:g} µs" for h in steps)]
+        heads = ["bearing", "whose", "algorithm", "the rotor gets", *(f"{h * 1e6:g} µs" for h in steps)]
         print("| " + " | ".join(heads) + " |")
         print("|---|---|---|---|" + "---|" * len(steps))
     for name, (bearing, inside) in fmus.items():
@@ -297,10 +297,10 @@ def main():
             systems[force] = write_system(path, bearing, rotor, force, exact[0])
             if options.build:
                 print(path)
-        for whose, kind, told, force, run in MASTERS:
+        for whose, kind, handover, force, run in ALGORITHMS:
             if not options.build:
                 cells = [error(run, systems[force], exact, h, stop) for h in steps]
-                print(f"| {name} | {whose} | {kind} | {told} | " + " | ".join(cells) + " |", flush=True)
+                print(f"| {name} | {whose} | {kind} | {handover} | " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

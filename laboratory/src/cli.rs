@@ -21,7 +21,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     #[command(flatten)]
-    User(UserCommand),
+    User(Box<UserCommand>),
     /// Error against run time, measured on this machine: Markdown, CSV and figures
     Report(Report),
     /// Computes every claim of the paper anew: docs/validation.md and its figures

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `c_interface` | the C types that both versions share, callbacks, the logger, addresses of files |
 //! | `arguments` | how an argument from C becomes a slice or a string |
+//! | `both_versions` | the exported functions that differ by their names alone |
 //! | `boundary` | how a call reaches its instance, and what becomes of panics and failures |
 //! | `instance` | one instance: model, clock, mode, handles, failures, saved states, references of FMI 3.0 |
 //! | `instantiation` | how an instance comes to be, or why it does not |
@@ -19,6 +20,7 @@
 #![allow(unsafe_code)]
 
 pub(crate) mod arguments;
+mod both_versions;
 pub(crate) mod boundary;
 mod c_interface;
 pub mod fmi2;

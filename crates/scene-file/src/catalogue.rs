@@ -24,30 +24,9 @@ const STEP_OF_BALLS: f64 = 25.4 / 64.0;
 /// Part of the pitch circle that balls fill (°), from the outermost edge of the first to that of the last but one.
 const FILLED: f64 = 195.0;
 
-/// Cylindrical roller bearings, and the ball bearing that has the same boundary by ISO 15.
-const ROLLER_BEARINGS: [(&str, &str); 21] = [
-    ("NU202", "6202"),
-    ("NU203", "6203"),
-    ("NU204", "6204"),
-    ("NU205", "6205"),
-    ("NU206", "6206"),
-    ("NU207", "6207"),
-    ("NU208", "6208"),
-    ("NU209", "6209"),
-    ("NU210", "6210"),
-    ("NU211", "6211"),
-    ("NU212", "6212"),
-    ("NU303", "6303"),
-    ("NU304", "6304"),
-    ("NU305", "6305"),
-    ("NU306", "6306"),
-    ("NU307", "6307"),
-    ("NU308", "6308"),
-    ("NU309", "6309"),
-    ("NU310", "6310"),
-    ("NU311", "6311"),
-    ("NU312", "6312"),
-];
+/// A row for each boundary by ISO 15: the ball bearing and, if there is one, the roller bearing that have it, and what
+/// is published of the balls. Sizes 204K to 312K of the source that gives balls in 1/64 inch are 6204 to 6312 here.
+const TABLE: &str = include_str!("catalogue.csv");
 /// Letters before the number of a roller bearing, which say where its flanges are.
 const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
 
@@ -93,76 +72,6 @@ impl Inside {
     }
 }
 
-/// Name, bore, outside diameter and width (mm) by ISO 15.
-const BOUNDARIES: [(&str, [f64; 3]); 37] = [
-    ("608", [8.0, 22.0, 7.0]),
-    ("6000", [10.0, 26.0, 8.0]),
-    ("6001", [12.0, 28.0, 8.0]),
-    ("6002", [15.0, 32.0, 9.0]),
-    ("6003", [17.0, 35.0, 10.0]),
-    ("6004", [20.0, 42.0, 12.0]),
-    ("6005", [25.0, 47.0, 12.0]),
-    ("6006", [30.0, 55.0, 13.0]),
-    ("6007", [35.0, 62.0, 14.0]),
-    ("6008", [40.0, 68.0, 15.0]),
-    ("6009", [45.0, 75.0, 16.0]),
-    ("6010", [50.0, 80.0, 16.0]),
-    ("6200", [10.0, 30.0, 9.0]),
-    ("6201", [12.0, 32.0, 10.0]),
-    ("6202", [15.0, 35.0, 11.0]),
-    ("6203", [17.0, 40.0, 12.0]),
-    ("6204", [20.0, 47.0, 14.0]),
-    ("6205", [25.0, 52.0, 15.0]),
-    ("6206", [30.0, 62.0, 16.0]),
-    ("6207", [35.0, 72.0, 17.0]),
-    ("6208", [40.0, 80.0, 18.0]),
-    ("6209", [45.0, 85.0, 19.0]),
-    ("6210", [50.0, 90.0, 20.0]),
-    ("6211", [55.0, 100.0, 21.0]),
-    ("6212", [60.0, 110.0, 22.0]),
-    ("6301", [12.0, 37.0, 12.0]),
-    ("6302", [15.0, 42.0, 13.0]),
-    ("6303", [17.0, 47.0, 14.0]),
-    ("6304", [20.0, 52.0, 15.0]),
-    ("6305", [25.0, 62.0, 17.0]),
-    ("6306", [30.0, 72.0, 19.0]),
-    ("6307", [35.0, 80.0, 21.0]),
-    ("6308", [40.0, 90.0, 23.0]),
-    ("6309", [45.0, 100.0, 25.0]),
-    ("6310", [50.0, 110.0, 27.0]),
-    ("6311", [55.0, 120.0, 29.0]),
-    ("6312", [60.0, 130.0, 31.0]),
-];
-
-/// Name, number of balls, their diameter and the pitch diameter (mm), and who has published that.
-const PUBLISHED: [(&str, usize, [f64; 2], &str); 2] = [
-    ("6203", 8, [6.7462, 28.4988], "Case Western Reserve University's bearing data, fan end"),
-    ("6205", 9, [7.94, 39.04], "Case Western Reserve University's bearing data, drive end"),
-];
-
-/// Who has published the frequencies of those below, as sizes 204K to 312K.
-const BY_FREQUENCIES: &str = "Timken's ball bearing housed unit catalogue, table A-9, by its frequency coefficients";
-/// Name, number of balls and their diameter [1/64 inch] by their frequencies; the pitch diameter is (d + D)/2.
-const TIMKEN: [(&str, usize, f64); 17] = [
-    ("6204", 8, 20.0),
-    ("6206", 9, 24.0),
-    ("6207", 9, 28.0),
-    ("6208", 9, 32.0),
-    ("6209", 9, 32.0),
-    ("6210", 10, 32.0),
-    ("6211", 10, 36.0),
-    ("6212", 10, 40.0),
-    ("6303", 7, 22.0),
-    ("6304", 7, 24.0),
-    ("6306", 7, 34.0),
-    ("6307", 8, 36.0),
-    ("6308", 8, 40.0),
-    ("6309", 8, 44.0),
-    ("6310", 8, 48.0),
-    ("6311", 8, 52.0),
-    ("6312", 8, 56.0),
-];
-
 /// A name that is not in the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("bearing.catalogue = {name:?} is not in the catalogue{}, which has {}", meant(name), designations().join(", "))]
@@ -184,37 +93,43 @@ pub fn catalogue() -> impl Iterator<Item = CatalogueBearing> {
     ball_bearings().chain(roller_bearings())
 }
 
-fn roller_bearings() -> impl Iterator<Item = CatalogueBearing> {
-    ROLLER_BEARINGS.iter().filter_map(|&(designation, same_boundary)| {
-        let (_, boundary) = *BOUNDARIES.iter().find(|(name, _)| *name == same_boundary)?;
-        Some(CatalogueBearing { designation, boundary, inside: estimated_rollers(boundary) })
-    })
-}
-
 fn ball_bearings() -> impl Iterator<Item = CatalogueBearing> {
-    BOUNDARIES.iter().map(|&(designation, boundary)| {
-        let inside = published(designation, boundary).unwrap_or_else(|| estimated(boundary));
-        CatalogueBearing { designation, boundary, inside }
+    TABLE.lines().skip(1).filter_map(|row| {
+        let (designation, _, boundary, published) = read(row)?;
+        let inside = balls(boundary, &published).unwrap_or_else(|| estimated(boundary));
+        Some(CatalogueBearing { designation, boundary, inside })
     })
 }
 
-fn published(designation: &str, boundary: [f64; 3]) -> Option<Inside> {
-    let balls = |element_count, element_diameter, pitch_diameter, source| Inside {
-        element_count,
-        element_diameter,
-        pitch_diameter,
+fn roller_bearings() -> impl Iterator<Item = CatalogueBearing> {
+    let rows = TABLE.lines().skip(1).filter_map(read).filter(|(_, name, ..)| !name.is_empty());
+    rows.map(|(_, designation, boundary, _)| CatalogueBearing {
+        designation,
+        boundary,
+        inside: estimated_rollers(boundary),
+    })
+}
+
+/// A row: names of the ball and of the roller bearing, boundary (mm), and the cells of what is published.
+fn read(row: &'static str) -> Option<(&'static str, &'static str, [f64; 3], [&'static str; 5])> {
+    // The source comes last and may have commas.
+    let cells: Vec<&str> = row.splitn(10, ',').collect();
+    let &[ball, roller, bore, outside, width, ref published @ ..] = &cells[..] else { return None };
+    let boundary = [bore.parse().ok()?, outside.parse().ok()?, width.parse().ok()?];
+    Some((ball, roller, boundary, published.try_into().ok()?))
+}
+
+/// The balls that are published: their number, their diameter in millimetres or in 1/64 inch, the pitch diameter, which
+/// is halfway between bore and outside where it is not given, and who has published that.
+fn balls(boundary: [f64; 3], &[count, diameter, steps, pitch, source]: &[&'static str; 5]) -> Option<Inside> {
+    let by_steps = || steps.parse().ok().map(|steps: f64| steps * STEP_OF_BALLS);
+    Some(Inside {
+        element_count: count.parse().ok()?,
+        element_diameter: diameter.parse().ok().or_else(by_steps)?,
+        pitch_diameter: pitch.parse().unwrap_or(halfway(boundary)),
         roller_length: None,
         source: Some(source),
-    };
-    let by_dimensions = PUBLISHED.iter().find(|(name, ..)| *name == designation);
-    let by_frequencies = TIMKEN.iter().find(|(name, ..)| *name == designation);
-    match (by_dimensions, by_frequencies) {
-        (Some(&(_, count, [diameter, pitch], source)), _) => Some(balls(count, diameter, pitch, source)),
-        (None, Some(&(_, count, steps))) => {
-            Some(balls(count, steps * STEP_OF_BALLS, halfway(boundary), BY_FREQUENCIES))
-        }
-        (None, None) => None,
-    }
+    })
 }
 
 /// Diameter of the circle halfway between bore and outside.
@@ -283,8 +198,7 @@ mod tests {
 
     #[test]
     fn bearings_known_by_their_frequencies_have_those_that_are_printed() {
-        for ((name, printed), (known, ..)) in COEFFICIENTS.into_iter().zip(TIMKEN) {
-            assert_eq!(name, known);
+        for (name, printed) in COEFFICIENTS {
             let inside = catalogued(name).unwrap().inside;
             let (count, share) = (inside.element_count as f64, inside.element_diameter / inside.pitch_diameter);
             let cage = 0.5 * (1.0 - share);
@@ -313,7 +227,8 @@ mod tests {
         }
         assert_eq!(off, ["6209", "6303"]);
         let sourced = ball_bearings().filter(|bearing| bearing.inside.source.is_some());
-        assert_eq!(sourced.count(), PUBLISHED.len() + TIMKEN.len());
+        assert_eq!(sourced.count(), 2 + COEFFICIENTS.len());
+        assert_eq!(catalogue().count(), 37 + 21, "a row of the table is not read");
     }
 
     #[test]

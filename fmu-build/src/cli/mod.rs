@@ -11,7 +11,7 @@ use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes,
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::Project;
 use crate::{run, sweep};
-use options::{Build, Catalogue, Check, Contact, Demo, Modes, New, Run, Scenes, Size, Stiffness, Sweep};
+use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Run, Scenes, Size, Sweep};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
@@ -33,9 +33,9 @@ pub enum Command {
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
-    Stiffness(Stiffness),
+    Stiffness(OverCageAngle),
     /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
-    Modes(Modes),
+    Modes(OverCageAngle),
     /// Pressure of one ball on a raceway as measured, and the stresses below: JSON on standard output, CSV, figure
     Contact(Contact),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
@@ -82,16 +82,12 @@ impl Command {
             }
             Command::Check(options) => check::command(project, &options.fmu),
             Command::Stiffness(options) => {
-                let model = Model::read(&options.scene)?;
-                let folder = options.output.unwrap_or_else(|| project.results("stiffness"));
-                let wanted = swept(options.load, options.points, options.no_figure);
-                stiffness::command(project, &model, wanted, &folder)
+                let folder = options.drawn.folder(project, "stiffness");
+                stiffness::command(project, &Model::read(&options.scene)?, options.options(), &folder)
             }
             Command::Modes(options) => {
-                let model = Model::read(&options.scene)?;
-                let folder = options.output.unwrap_or_else(|| project.results("modes"));
-                let wanted = swept(options.load, options.points, options.no_figure);
-                modes::command(project, &model, wanted, &folder)
+                let folder = options.drawn.folder(project, "modes");
+                modes::command(project, &Model::read(&options.scene)?, options.options(), &folder)
             }
             Command::Contact(options) => {
                 let wanted = contact::Options {
@@ -99,10 +95,9 @@ impl Command {
                     angle_deg: options.angle,
                     force: options.force,
                     resolution: options.resolution,
-                    figure: !options.no_figure,
+                    figure: !options.drawn.no_figure,
                 };
-                let folder = options.output.unwrap_or_else(|| project.results("contact"));
-                contact::command(project, &options.scene, &wanted, &folder)
+                contact::command(project, &options.scene, &wanted, &options.drawn.folder(project, "contact"))
             }
             Command::Size(options) => size(project, options),
             Command::Demo(options) => {
@@ -158,14 +153,8 @@ fn size(project: &Project, options: Size) -> Result<()> {
         channel: options.channel.clone(),
         text: options.text(),
         report: options.report.clone(),
-        figure: !options.no_figure,
+        figure: !options.drawn.no_figure,
     };
-    let bearing = options.bearing();
-    let folder = options.output.unwrap_or_else(|| project.results("size"));
-    size::command(project, &bearing, &options.recordings, &wanted, &folder)
-}
-
-/// Options of the commands that sweep the cage angle.
-fn swept(load: Option<f64>, points: Option<u32>, no_figure: bool) -> stiffness::Options {
-    stiffness::Options { load, points: points.map(|count| count as usize), figure: !no_figure }
+    let folder = options.drawn.folder(project, "size");
+    size::command(project, &options.bearing(), &options.recordings, &wanted, &folder)
 }

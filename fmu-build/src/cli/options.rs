@@ -8,14 +8,13 @@ use brinell::scene::Experiment;
 use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
 
-use crate::commands::{Spall, contact, new_scene, size};
+use crate::commands::{Spall, contact, new_scene, size, stiffness};
 use crate::package::{Model, library};
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::Version;
-use crate::shared::{Grid, delimiter, number, seed, speed, whole};
+use crate::shared::{Grid, Project, Version, delimiter, number, seed, speed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -178,45 +177,46 @@ pub struct Check {
     pub(super) fmu: PathBuf,
 }
 
-/// Options of `stiffness`.
+/// Options of `stiffness` and `modes`, which sweep the cage angle.
 #[derive(Debug, Args)]
-pub struct Stiffness {
-    /// Scene file (TOML), or the name of a shipped scene
+pub struct OverCageAngle {
+    /// Scene file (TOML), or the name of a shipped scene; its cage stands still
     pub(super) scene: PathBuf,
-    /// Load in newtons along the scene's load [default: the scene's]
+    /// Load in newtons along the scene's load; `modes` takes a scene without load as well, and puts it on the shaft
+    /// and downwards, wherever that is held [default: the scene's]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     pub(super) load: Option<f64>,
     /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
-    /// carry are added
+    /// carry are added, by `modes` also those at an edge of a defect and where modes change much
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     pub(super) points: Option<u32>,
-    /// Folder for CSV and figure [default: the current one]
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
+}
+
+impl OverCageAngle {
+    pub(super) fn options(&self) -> stiffness::Options {
+        let points = self.points.map(|count| count as usize);
+        stiffness::Options { load: self.load, points, figure: !self.drawn.no_figure }
+    }
+}
+
+/// Where results go, and whether they are drawn.
+#[derive(Debug, Args)]
+pub(super) struct Drawn {
+    /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
-    /// Leave the figure out; no Python is needed then
+    /// Leave figures out; no Python is needed then
     #[arg(long)]
     pub(super) no_figure: bool,
 }
 
-/// Options of `modes`.
-#[derive(Debug, Args)]
-pub struct Modes {
-    /// Scene file (TOML), or the name of a shipped scene; its cage stands still
-    pub(super) scene: PathBuf,
-    /// Load in newtons along the scene's load; of a scene without load, on the shaft and downwards, wherever that is
-    /// held [default: the scene's]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    pub(super) load: Option<f64>,
-    /// Cage angles within one element spacing [default: 200, more for a short defect]; others are added
-    /// where elements begin to be pressed, where they cross an edge of a defect, and where modes change much
-    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
-    pub(super) points: Option<u32>,
-    /// Folder for JSON and figure [default: the current one]
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Leave the figure out; no Python is needed then
-    #[arg(long)]
-    pub(super) no_figure: bool,
+impl Drawn {
+    /// The folder; `results` is the one of the command.
+    pub(super) fn folder(&self, project: &Project, results: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| project.results(results))
+    }
 }
 
 /// Options of `contact`.
@@ -237,12 +237,8 @@ pub struct Contact {
     /// Cells along and across the raceway, over the contact and a little more
     #[arg(long, value_name = "CELLS", default_value_t = 512)]
     pub(super) resolution: usize,
-    /// Folder for CSV, JSON and figure [default: the current one]
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Leave the figure out; no Python is needed then
-    #[arg(long)]
-    pub(super) no_figure: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
 }
 
 /// Options of `size`.
@@ -303,12 +299,8 @@ pub struct Size {
     /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
     #[arg(long, value_name = "FILE.html")]
     pub(super) report: Option<PathBuf>,
-    /// Folder for averaged passages and figures [default: the current one]
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Leave the figures out; no Python is needed then
-    #[arg(long)]
-    pub(super) no_figure: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
 }
 
 impl Size {

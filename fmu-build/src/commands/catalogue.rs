@@ -8,11 +8,11 @@ use brinell_scene_file::{Inside, catalogue, catalogued};
 /// NU205 by NJ205 and 6205 by 6205-2RS.
 pub(crate) fn command(filter: &str) -> Result<()> {
     let filter = filter.trim().to_uppercase();
-    let mut found: Vec<_> = catalogue().filter(|bearing| bearing.designation.starts_with(&filter)).collect();
-    if found.is_empty() {
-        found.extend(catalogued(&filter));
+    let mut bearings: Vec<_> = catalogue().filter(|bearing| bearing.designation.starts_with(&filter)).collect();
+    if bearings.is_empty() {
+        bearings.extend(catalogued(&filter));
     }
-    if found.is_empty() {
+    if bearings.is_empty() {
         let near = nearest(catalogue().map(|bearing| bearing.designation), &filter);
         let near = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
         bail!("no bearing of the catalogue begins with {filter:?}; {near}`brinell catalogue` lists all");
@@ -24,7 +24,7 @@ pub(crate) fn command(filter: &str) -> Result<()> {
     println!(
         "name      d    D    B [mm]  elements  diameter [mm]  length [mm]  pitch [mm]  elements and pitch diameter"
     );
-    for bearing in found {
+    for bearing in bearings {
         let ([bore, outside, width], inside) = (bearing.boundary, bearing.inside);
         let Inside { element_count, element_diameter, pitch_diameter, roller_length, source } = inside;
         let length = roller_length.map_or("-".to_owned(), |length| format!("{length:.1}"));

@@ -22,8 +22,8 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let middle = assembly.defect().map_or(direction, |defect| defect.centre);
     let length = assembly.defect().map(|defect| defect.length);
     let points = options.points.unwrap_or_else(|| enough_points(assembly.period(), length));
-    let found = sweep(&assembly, middle - 0.5 * assembly.period(), points)?;
-    let report = ModesReport::new(scene.name.clone(), &assembly, middle, &found);
+    let modes = sweep(&assembly, middle - 0.5 * assembly.period(), points)?;
+    let report = ModesReport::new(scene.name.clone(), &assembly, middle, &modes);
     if report.held(Hold::Pressed)[1] == 0 {
         bail!(
             "no element is pressed between the raceways at any cage angle, so nothing couples the rings: \

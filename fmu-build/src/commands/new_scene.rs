@@ -6,8 +6,10 @@ use std::str::FromStr;
 use anyhow::{Context, Result, bail};
 use brinell::scene::Scene;
 use brinell_scene_file::{CatalogueBearing, NotInCatalogue, catalogued};
+use minijinja::context;
 
 use super::schema;
+use crate::package::render;
 use crate::shared::whole_file;
 
 /// Share of the static load rating that a new scene's bearing carries.
@@ -45,7 +47,7 @@ fn named(name: &str) -> Result<CatalogueBearing> {
 pub(crate) fn unwritten(bearing: &str, spall: Option<&Spall>) -> Result<String> {
     let bearing = named(bearing)?;
     let name = format!("{}-{}", bearing.designation.to_lowercase(), spall.map_or("healthy", |spall| spall.on));
-    Ok(text(&name, &bearing, spall))
+    text(&name, &bearing, spall)
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
@@ -65,7 +67,7 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
 
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
-    let text = text(name, &named(bearing)?, spall);
+    let text = text(name, &named(bearing)?, spall)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     let path = folder.join(format!("{name}.toml"));
@@ -77,76 +79,30 @@ pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: 
     schema::write_beside(folder)
 }
 
-fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> String {
+fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> Result<String> {
     let (designation, inside) = (bearing.designation, bearing.inside);
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
     let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
     let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
-    let roller = inside.roller_length.map_or(String::new(), |length| {
-        format!(
-            "# roller_length_mm = {length:<16} # the same; effective, without chamfers\n\
-             roller_profile = \"log\"                # assumed: the crown of ISO/TS 16281; or \"straight\"\n"
-        )
-    });
     let what =
         spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
-    let defect = spall.map(of_spall).unwrap_or_default();
-    format!(
-        r#"#:schema scene.schema.json
-# What is marked as assumed is a start: put in what you know of your machine.
-
-name = "{name}"
-description = "{designation}, {what}, {load} N, 25 Hz"
-
-[bearing]
-catalogue = {name_of_bearing:<25} # gives the keys below; a key given beside it wins
-# element_count = {count:<19} # {source}
-# element_diameter_mm = {diameter:.3}
-# pitch_diameter_mm = {pitch:.3}
-{roller}radial_clearance_um = 5.0             # assumed; or internal_clearance_um, as catalogues count: twice as much
-{defect}
-[shaft]
-motion = "internal"                   # or "host", then without load_n: an FMU's host gives its position
-speed_hz = 25.0                       # assumed
-load_n = {vector:<28} # assumed: 5 % of the static rating {formula} in N and mm; downwards
-# mass_kg, damping_n_s_m, stiffness_n_m: without them those of a published model of a test rig
-
-[housing]
-motion = "internal"                   # or "host"; or "fixed", then without [sensor]
-
-[sensor]                              # an accelerometer on the housing, upwards
-mass_kg = 0.03                        # assumed: 15 kHz, 5 % of critical damping
-stiffness_n_m = 2.6648e8              # the same
-damping_n_s_m = 282.74                # the same
-
-[experiment]
-stop_s = 0.2                          # five turns of the shaft
-step_s = 2e-5                         # 50 kHz sampling
-"#,
-        name_of_bearing = format!("\"{designation}\""),
-        vector = format!("[0.0, -{load:.1}]"),
-        count = inside.element_count,
-        diameter = inside.element_diameter,
-        pitch = inside.pitch_diameter,
-    )
-}
-
-fn of_spall(&Spall { on, length, unit }: &Spall) -> String {
-    let at = match on {
-        "element" => "element = 1\nangle_deg = 0.0                       # faces the outer raceway at the start",
-        "inner" => "angle_deg = 180.0                     # at the start; it turns with the shaft into the load zone",
-        _ => "angle_deg = -90.0                     # in the middle of the load zone",
+    let defect = |&Spall { on, length, unit }: &Spall| context! { on, unit, length => format!("{length:?}") };
+    let values = context! {
+        name,
+        designation,
+        what,
+        source,
+        formula,
+        load => load.to_string(),
+        catalogue => format!("{:<25}", format!("\"{designation}\"")),
+        count => format!("{:<19}", inside.element_count),
+        diameter => format!("{:.3}", inside.element_diameter),
+        pitch => format!("{:.3}", inside.pitch_diameter),
+        length => inside.roller_length.map(|length| format!("{length:<16}")),
+        load_vector => format!("{:<28}", format!("[0.0, -{load:.1}]")),
+        spall => spall.map(defect),
     };
-    format!(
-        r#"
-[defect]
-on = "{on}"
-{at}
-length_{unit} = {length:?}
-depth_um = 50.0                       # assumed
-edge_slope_deg = 90.0                 # assumed: sharp edges
-"#
-    )
+    render("new_scene.toml", include_str!("../../assets/new_scene.toml"), values)
 }
 
 #[cfg(test)]
@@ -159,7 +115,7 @@ mod tests {
         for bearing in catalogue() {
             for spall in [None, Some("outer:5deg"), Some("inner:0.5mm"), Some("element:0.4mm")] {
                 let spall: Option<Spall> = spall.map(|text| text.parse().unwrap());
-                let scene = brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref())).unwrap();
+                let scene = brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref()).unwrap()).unwrap();
                 assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
                 assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
             }
@@ -168,7 +124,7 @@ mod tests {
 
     #[test]
     fn each_motion_that_a_scene_offers_is_taken_as_its_comment_says() {
-        let own = text("mine", &catalogued("6205").unwrap(), None);
+        let own = text("mine", &catalogued("6205").unwrap(), None).unwrap();
         let offers = |line: &&str| line.starts_with("motion = ");
         let mut tried = Vec::new();
         for line in own.lines().filter(offers) {

@@ -159,12 +159,12 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
         let passage = with_ending(&stem, ".csv");
         whole_file::write_with(&passage, |mut out| write_passage(&mut out, figure))?;
         eprintln!("{}", passage.display());
-        let mut found = serde_json::to_value(recording)?;
-        found["critical_load_n"] = serde_json::json!(report.critical_load_n);
-        found["critical_load_reason"] = serde_json::json!(report.critical_load_reason);
-        found["kind"] = serde_json::json!(report.kind);
+        let mut answer = serde_json::to_value(recording)?;
+        answer["critical_load_n"] = serde_json::json!(report.critical_load_n);
+        answer["critical_load_reason"] = serde_json::json!(report.critical_load_reason);
+        answer["kind"] = serde_json::json!(report.kind);
         let about = with_ending(&stem, ".json");
-        whole_file::write(&about, serde_json::to_string_pretty(&found)? + "\n")?;
+        whole_file::write(&about, serde_json::to_string_pretty(&answer)? + "\n")?;
         eprintln!("{}", about.display());
         stems.push(stem);
     }

@@ -11,7 +11,7 @@ use brinell_analysis::spectrum;
 use minijinja::context;
 use serde_json::{Value, json};
 
-use crate::package::documentation::html;
+use crate::package::render;
 
 const PAGE: &str = include_str!("../../assets/size.html");
 /// Size of a chart (px).
@@ -33,7 +33,7 @@ pub(super) fn page(report: &Report, recordings: &[Recording], scene: &Scene, ans
     let parts: Vec<Value> =
         figures.map(|((one, figure), recording)| part(one, figure, recording, scene, &report.reason)).collect();
     let parts = minijinja::value::Serde(parts);
-    html(
+    render(
         "size.html",
         PAGE,
         context! { answer, parts, program => env!("CARGO_PKG_VERSION"), width => WIDTH, height => HEIGHT },

@@ -165,7 +165,7 @@ fn write_sweep(
     csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
     for balance in balances {
         let without = healthy.balance(balance.cage_angle, balance.load)?;
-        let critical = plain.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |found| found.load);
+        let critical = plain.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |critical| critical.load);
         let [[xx, xy], [yx, yy]] = balance.stiffness;
         let ([x, y], [load_x, load_y]) = (balance.displacement, balance.load);
         let mut row =
@@ -212,8 +212,8 @@ fn write_variations(
     let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
     csv::header(out, names.into_iter())?;
     let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
-        let found = bearing.critical_load()?.map_or(f64::NAN, |found| found.load);
-        Ok(csv::row(out, [varied, path, clearance, compliance, found].into_iter())?)
+        let critical = bearing.critical_load()?.map_or(f64::NAN, |critical| critical.load);
+        Ok(csv::row(out, [varied, path, clearance, compliance, critical].into_iter())?)
     };
     for factor in DEPTHS {
         match bearing.with_depth_times(factor) {
@@ -229,7 +229,7 @@ fn write_variations(
         let clearance = widest * part(i);
         row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
     }
-    let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |found| found.load);
+    let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |critical| critical.load);
     let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
     for i in 0..VARIATIONS {
         let compliance = softest * part(i);

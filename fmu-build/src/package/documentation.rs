@@ -8,11 +8,11 @@ use brinell::scene::{
     Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, RollerProfile, Scene, Sensor,
 };
 use brinell::simulation::Method;
-use minijinja::syntax::SyntaxConfig;
-use minijinja::{Environment, Output, State, Value, context};
+use minijinja::context;
 use quick_xml::escape::escape;
 
 use super::model::{Model, remarks};
+use super::template::render;
 use crate::shared::Version;
 use crate::shared::digits;
 use variables::variables;
@@ -46,24 +46,7 @@ pub fn write(model: &Model, version: Version) -> Result<String> {
         variables => variables(&model.simulation, version),
         scene => &model.scene_text,
     };
-    html("index.html", PAGE, filled)
-}
-
-/// A template of HTML, filled.
-///
-/// # Errors
-/// Of the template.
-pub(crate) fn html(name: &str, template: &str, filled: Value) -> Result<String> {
-    let mut page = Environment::new();
-    page.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true).build()?);
-    page.set_formatter(escaped);
-    Ok(page.render_named_str(name, template, filled)?)
-}
-
-/// Values as text of an HTML page, unless they are marked as HTML themselves.
-fn escaped(out: &mut Output<'_>, _: &mut State<'_, '_>, value: &Value) -> Result<(), minijinja::Error> {
-    let text = value.to_string();
-    Ok(out.write_str(&if value.is_safe() { text } else { escape(text).into_owned() })?)
+    render("index.html", PAGE, filled)
 }
 
 /// What the scene says, as rows of words and HTML.

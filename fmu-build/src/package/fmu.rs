@@ -9,8 +9,7 @@ use super::archive::Archive;
 use super::documentation;
 use super::library::Library;
 use super::model::Model;
-use crate::package::description::fmi2::CAPABILITIES;
-use crate::package::description::{fmi2, fmi3, terminals};
+use crate::package::description::{model_description, terminals};
 use crate::shared::Version;
 use crate::shared::whole_file;
 
@@ -23,14 +22,11 @@ const LICENSE: &str = "Brinell is licensed under either of\n\n\
 /// Packs a scene and the compiled library.
 pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8>> {
     let mut archive = Archive::default();
+    archive.add("modelDescription.xml", model_description(model, version)?)?;
     match version {
-        Version::Fmi2 => {
-            archive.add("modelDescription.xml", fmi2::write(model, &CAPABILITIES)?)?;
-            archive.add("model.png", ICON)?;
-        }
+        Version::Fmi2 => archive.add("model.png", ICON)?,
         Version::Fmi3 => {
-            archive.add("modelDescription.xml", fmi3::write(model)?)?;
-            archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(model.simulation.table())?)?;
+            archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals(model.simulation.table())?)?;
             archive.add("terminalsAndIcons/icon.png", ICON)?;
             if let Some(reference) = &model.reference {
                 reference.add_to(&mut archive)?;

@@ -152,7 +152,7 @@ mod tests {
         };
         assert_eq!(packed(&[]).unwrap(), ["linux64", "win64"]);
         assert_eq!(packed(&["win64"]).unwrap(), ["win64"]);
-        let said = packed(&["win64", "darwin64"]).unwrap_err().to_string();
-        assert_eq!(said, "platform darwin64: this program holds linux64, win64");
+        let message = packed(&["win64", "darwin64"]).unwrap_err().to_string();
+        assert_eq!(message, "platform darwin64: this program holds linux64, win64");
     }
 }

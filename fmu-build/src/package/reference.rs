@@ -18,9 +18,10 @@ use anyhow::{Context, Result, ensure};
 use brinell::scene::{Experiment, Motion, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind};
+use minijinja::context;
 
-use super::archive::{Archive, ArchiveError};
-use super::xml::Xml;
+use super::archive::Archive;
+use super::template::render;
 use crate::shared::{Grid, csv, whole_file};
 
 /// The rules recommend at most ten variables and want at most a megabyte: so many steps of ten columns are 0.2 MB.
@@ -117,37 +118,24 @@ impl Reference {
     }
 
     /// Puts the files into an FMU of FMI 3.0, with their manifest.
-    pub(crate) fn add_to(&self, archive: &mut Archive) -> Result<(), ArchiveError> {
+    pub(crate) fn add_to(&self, archive: &mut Archive) -> Result<()> {
         for (name, _, text) in self.files() {
             archive.add(format!("{FOLDER}/{name}"), text)?;
         }
         archive.add(format!("{FOLDER}/fmi-ls-manifest.xml"), self.manifest()?)?;
-        archive.add(
+        Ok(archive.add(
             "documentation/fmi-ls-ref.txt",
             "Run the FMU with the inputs of *_in.csv, set at each communication point, from StartTime to StopTime with \
              the communication step StepSize of *_ref.opt: its outputs are those of *_ref.csv. After the first impacts \
              of a spall runs part: of those within 1e-12 of each other some 1e-3 of the load is left after 0.1 s.\n",
-        )
+        )?)
     }
 
-    fn manifest(&self) -> io::Result<String> {
-        let mut xml = Xml::new()?;
-        let root = vec![
-            ("xmlns:fmi-ls", "http://fmi-standard.org/fmi-ls-manifest".into()),
-            ("fmi-ls:fmi-ls-name", "org.fmi-standard.fmi-ls-ref".into()),
-            ("fmi-ls:fmi-ls-version", "1.0.0-alpha.1".into()),
-            (
-                "fmi-ls:fmi-ls-description",
-                "Layered Standard providing information on related files included in an FMU.".into(),
-            ),
-        ];
-        xml.element("fmiReferences", root, |xml| {
-            self.files().into_iter().try_for_each(|(name, [kind, role, description], _)| {
-                let related = [("type", kind), ("source", &name), ("role", role), ("description", description)];
-                xml.empty("Related", related.map(|(key, value)| (key, value.to_owned())).to_vec())
-            })
-        })?;
-        xml.finish()
+    fn manifest(&self) -> Result<String> {
+        let files = self.files().into_iter();
+        let files: Vec<_> =
+            files.map(|(name, [kind, role, description], _)| context! { name, kind, role, description }).collect();
+        render("fmi-ls-manifest.xml", include_str!("../../assets/fmi-ls-manifest.xml"), context! { files })
     }
 }
 
@@ -164,8 +152,8 @@ fn outputs(simulation: &Simulation) -> Vec<(&'static str, u32)> {
         let mut rows = simulation.table().iter();
         rows.find(|row| row.name == name && row.causality == Causality::Output).map(|row| row.reference)
     };
-    let found = IMPORTANT.iter().filter_map(|&name| output(name).map(|reference| (name, reference)));
-    found.take(MOST_VARIABLES).collect()
+    let present = IMPORTANT.iter().filter_map(|&name| output(name).map(|reference| (name, reference)));
+    present.take(MOST_VARIABLES).collect()
 }
 
 /// What the host tells the FMU.

@@ -21,15 +21,15 @@ pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Res
             resolved.push_str(line);
             continue;
         };
-        let said = || format!("line {}: sensor.response \"{file}\"", number + 1);
+        let place = || format!("line {}: sensor.response \"{file}\"", number + 1);
         if has_one {
-            bail!("{}: a sensor has one, not two", said());
+            bail!("{}: a sensor has one, not two", place());
         }
         if file.contains(['/', '\\', ':']) {
-            bail!("{}: it must be the name of a file beside the scene", said());
+            bail!("{}: it must be the name of a file beside the scene", place());
         }
-        let fit = read(&file).and_then(|text| Ok(FrequencyResponse::from_csv(&text)?.fit()?)).with_context(said)?;
-        eprintln!("{}: {} modes, which miss {:.2} % of it", said(), fit.modes.len(), 100.0 * fit.misfit);
+        let fit = read(&file).and_then(|text| Ok(FrequencyResponse::from_csv(&text)?.fit()?)).with_context(place)?;
+        eprintln!("{}: {} modes, which miss {:.2} % of it", place(), fit.modes.len(), 100.0 * fit.misfit);
         resolved.push_str(&modes(&file, &fit));
         resolved.push('\n');
         has_one = true;
@@ -99,8 +99,8 @@ mod tests {
         // What follows is reported with its line in the file.
         let spoilt = named("response = \"frf.csv\"").replace("stop_s = ", "stop_s = -");
         let line = 1 + spoilt.lines().position(|line| line.starts_with("stop_s")).unwrap();
-        let said = brinell_scene_file::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();
-        assert!(said.contains(&format!("line {line}: stop time")), "{said}");
+        let message = brinell_scene_file::from_toml(&resolved(&spoilt, read).unwrap()).unwrap_err().to_string();
+        assert!(message.contains(&format!("line {line}: stop time")), "{message}");
         // Whatever has no response stays as it is.
         assert_eq!(resolved(SCENE, read).unwrap(), SCENE);
         assert!(resolved(&named("response = \"other.csv\""), read).unwrap_err().to_string().contains("other.csv"));

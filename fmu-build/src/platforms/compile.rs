@@ -91,11 +91,11 @@ fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchai
         bail!("{}: not compiled ({}); cargo's messages are above", platform.name, output.status);
     }
     let built = String::from_utf8_lossy(&output.stdout);
-    let found = built
+    let file = built
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
         .find_map(|message| artifact(&message, platform.extension));
-    found.context("cargo built no dynamic library of the package brinell-fmi")
+    file.context("cargo built no dynamic library of the package brinell-fmi")
 }
 
 /// Path of the dynamic library, when a message of cargo announces it.
@@ -104,5 +104,5 @@ fn artifact(message: &serde_json::Value, extension: &str) -> Option<PathBuf> {
         return None;
     }
     let files = message["filenames"].as_array()?.iter().filter_map(|file| file.as_str());
-    files.map(PathBuf::from).find(|file| file.extension().is_some_and(|found| found == extension))
+    files.map(PathBuf::from).find(|file| file.extension().is_some_and(|ending| ending == extension))
 }

@@ -76,8 +76,8 @@ impl Platform {
     pub fn listed<S: AsRef<str>>(names: &[S]) -> Result<Vec<Self>> {
         let mut chosen: Vec<Self> = Vec::new();
         for name in names.iter().map(AsRef::as_ref) {
-            let found = if name == "all" { PLATFORMS.to_vec() } else { vec![Self::named(name)?] };
-            for platform in found {
+            let platforms = if name == "all" { PLATFORMS.to_vec() } else { vec![Self::named(name)?] };
+            for platform in platforms {
                 if !chosen.contains(&platform) {
                     chosen.push(platform);
                 }

@@ -51,25 +51,25 @@ impl<'a> Spectra<'a> {
     pub(super) fn write_envelope(&self, folder: &Path) -> Result<Option<PathBuf>> {
         let Acceleration { samples, rate } = &self.acceleration;
         let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
-        let found = match self.angles().filter(|_| self.changes()) {
+        let envelope = match self.angles().filter(|_| self.changes()) {
             Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, angles),
             None if self.changes() => None,
             None => EnvelopeSpectrum::of(samples, *rate, characteristic, speed),
         };
-        let Some(found) = found else { return Ok(None) };
+        let Some(envelope) = envelope else { return Ok(None) };
         let path = folder.join(format!("{}-envelope.csv", self.scene.name));
-        write(&path, [("frequency", "Hz"), ("amplitude", "1")], [&found.frequency, &found.amplitude])?;
-        let mut said = json!({
-            "band_hz": [found.band.low, found.band.high],
-            "line_width_hz": found.line_width,
+        write(&path, [("frequency", "Hz"), ("amplitude", "1")], [&envelope.frequency, &envelope.amplitude])?;
+        let mut description = json!({
+            "band_hz": [envelope.band.low, envelope.band.high],
+            "line_width_hz": envelope.line_width,
             "rate_hz": rate,
             "frequencies_hz": marks(&characteristic, 1.0),
         });
         if self.changes() {
-            said["mean_speed_hz"] = json!(speed);
+            description["mean_speed_hz"] = json!(speed);
         }
         let about = path.with_extension("json");
-        whole_file::write(&about, serde_json::to_string_pretty(&said)? + "\n")?;
+        whole_file::write(&about, serde_json::to_string_pretty(&description)? + "\n")?;
         println!("{}", about.display());
         Ok(Some(path))
     }
@@ -92,17 +92,17 @@ impl<'a> Spectra<'a> {
         if self.acceleration.samples.is_empty() {
             return Ok(None);
         }
-        let found = OrderSpectrum::of(&self.acceleration.samples, angles, HIGHEST_ORDER);
+        let spectrum = OrderSpectrum::of(&self.acceleration.samples, angles, HIGHEST_ORDER);
         let path = folder.join(format!("{}-orders.csv", self.scene.name));
-        write(&path, [("order", "1"), ("amplitude", "m/s2")], [&found.order, &found.amplitude])?;
+        write(&path, [("order", "1"), ("amplitude", "m/s2")], [&spectrum.order, &spectrum.amplitude])?;
         let used = angles.used();
-        let said = json!({
-            "line_width": found.line_width,
+        let description = json!({
+            "line_width": spectrum.line_width,
             "orders": marks(&characteristic, speed),
             "from_s": used.0 / self.acceleration.rate,
             "to_s": used.1 / self.acceleration.rate,
         });
-        Ok(Some((path, said)))
+        Ok(Some((path, description)))
     }
 
     fn changes(&self) -> bool {
@@ -125,8 +125,8 @@ impl<'a> Spectra<'a> {
                 return None;
             }
         }
-        let found = Frequencies::of(&scene);
-        (found.bpfo > 0.0 && found.bpfi > 0.0).then_some((found, scene.shaft_speed.abs() / TAU))
+        let frequencies = Frequencies::of(&scene);
+        (frequencies.bpfo > 0.0 && frequencies.bpfi > 0.0).then_some((frequencies, scene.shaft_speed.abs() / TAU))
     }
 
     /// Where the shaft has turned by equal angles.

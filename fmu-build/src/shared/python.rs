@@ -129,7 +129,7 @@ impl Python {
         let about = || self.interpreter.display().to_string();
         let output = self.command(script).args(arguments).output().with_context(about)?;
         if !output.status.success() {
-            bail!("{}: {}", script.display(), said(&output));
+            bail!("{}: {}", script.display(), last_lines(&output));
         }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
@@ -141,7 +141,7 @@ impl Python {
         let mut command = self.command(&self.scripts.join(script));
         let child = command.args(arguments).stdout(Stdio::inherit()).stderr(Stdio::piped()).spawn();
         let output = child.and_then(Child::wait_with_output).with_context(about)?;
-        match said(&output) {
+        match last_lines(&output) {
             _ if output.status.success() => Ok(()),
             silent if silent.is_empty() => bail!("{script} ended without a word: {}", output.status),
             why => bail!(why),
@@ -183,8 +183,8 @@ fn find_interpreter() -> Result<PathBuf> {
     let mut refused = Vec::new();
     for candidate in candidates {
         match version(&candidate) {
-            Some(found) if found >= OLDEST => return Ok(candidate),
-            Some(found) => refused.push(format!("{} is {}.{}", candidate.display(), found.0, found.1)),
+            Some(version) if version >= OLDEST => return Ok(candidate),
+            Some((major, minor)) => refused.push(format!("{} is {major}.{minor}", candidate.display())),
             None => refused.push(format!("{} is not there", candidate.display())),
         }
     }
@@ -205,7 +205,7 @@ fn version(interpreter: &Path) -> Option<(u32, u32)> {
 fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, requirements: &str) -> Result<()> {
     let output = Command::new(system).args(["-m", "venv", "--without-pip"]).arg(environment).output()?;
     if !output.status.success() {
-        bail!("{} cannot make a virtual environment. It said: {}", system.display(), said(&output));
+        bail!("{} cannot make a virtual environment. It said: {}", system.display(), last_lines(&output));
     }
     let list = folder.join("requirements.txt");
     whole_file::write(&list, requirements)?;
@@ -216,7 +216,10 @@ fn make(system: &Path, environment: &Path, interpreter: &Path, folder: &Path, re
     }
     let output = install(&pip, &["-r".as_ref(), list.as_os_str()])?;
     if !output.status.success() {
-        bail!("pip could not install the Python packages; is the package index reachable? It said: {}", said(&output));
+        bail!(
+            "pip could not install the Python packages; is the package index reachable? It said: {}",
+            last_lines(&output)
+        );
     }
     Ok(())
 }
@@ -233,7 +236,7 @@ fn pip_for(system: &Path, interpreter: &Path) -> Result<Vec<OsString>> {
         bail!(
             "{} has no pip for a virtual environment; on Debian or Ubuntu: apt-get install python3-venv. It said: {}",
             system.display(),
-            said(&output)
+            last_lines(&output)
         );
     }
     Ok([interpreter.as_os_str(), "-m".as_ref(), "pip".as_ref()].map(OsStr::to_owned).to_vec())
@@ -253,7 +256,7 @@ fn uv(interpreter: &Path, list: &Path) -> Result<Output> {
 }
 
 /// The end of what a program printed, on one line: an FMU logs to the one stream, Python raises on the other.
-fn said(output: &Output) -> String {
+fn last_lines(output: &Output) -> String {
     let last = |stream: &[u8], count: usize| {
         let text = String::from_utf8_lossy(stream);
         let lines: Vec<_> = text.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::to_owned).collect();

@@ -104,13 +104,13 @@ mod tests {
 
     #[test]
     fn a_name_that_is_neither_file_nor_scene_tells_which_scenes_there_are() {
-        let said = scene_text(Path::new("6205-epp")).unwrap_err().to_string();
-        assert!(said.contains("did you mean 6205-epps?"), "{said}");
-        let said = scene_text(Path::new("gearbox")).unwrap_err().to_string();
-        assert!(said.contains("6205-epps, ") && said.contains("6205-healthy"), "{said}");
+        let message = scene_text(Path::new("6205-epp")).unwrap_err().to_string();
+        assert!(message.contains("did you mean 6205-epps?"), "{message}");
+        let message = scene_text(Path::new("gearbox")).unwrap_err().to_string();
+        assert!(message.contains("6205-epps, ") && message.contains("6205-healthy"), "{message}");
         // What looks like a file is spoken of as one.
-        let said = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
-        assert_eq!(said, "6205-epp.toml");
+        let message = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
+        assert_eq!(message, "6205-epp.toml");
         assert!(text_beside(Path::new("no/6205-epps"), "6205-epps-trace.csv").is_err(), "another folder's scene");
     }
 }

@@ -129,8 +129,8 @@ mod tests {
             out.write_all(&[b'1'; 100_000])?;
             Err(io::Error::from(io::ErrorKind::StorageFull).into())
         });
-        let said = format!("{:#}", full.unwrap_err());
-        assert!(said.contains("signals.csv was not written") && said.contains("no storage space"), "{said}");
+        let message = format!("{:#}", full.unwrap_err());
+        assert!(message.contains("signals.csv was not written") && message.contains("no storage space"), "{message}");
         let other = write_with(&path, |out| {
             out.write_all(b"half")?;
             anyhow::bail!("element 3 was thrown out")
@@ -147,8 +147,8 @@ mod tests {
         let path = folder.path().join("a/b/page.md");
         write(&path, "whole").unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "whole");
-        let said = format!("{:#}", write(&path.join("c.md"), "").unwrap_err());
-        assert!(said.contains("page.md"), "{said}");
+        let message = format!("{:#}", write(&path.join("c.md"), "").unwrap_err());
+        assert!(message.contains("page.md"), "{message}");
     }
 
     #[cfg(unix)]

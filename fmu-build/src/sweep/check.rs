@@ -18,20 +18,22 @@ const TRIED: usize = 1000;
 pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     let mut tell = |fault: Fault| {
-        if !faults.iter().any(|known| known.said == fault.said) {
+        if !faults.iter().any(|known| known.message == fault.message) {
             faults.push(fault);
         }
     };
     for point in 0..sweep.kinds.len().max(1) as u64 {
         let first = first(sweep, point, is_whole);
-        let wrong = said(base, sweep, &first);
-        wrong.iter().for_each(|said| tell(about(sweep, said, 0)));
+        let wrong = messages(base, sweep, &first);
+        wrong.iter().for_each(|message| tell(about(sweep, message, 0)));
         for (position, Others { key, line, values }) in others(sweep, is_whole).into_iter().enumerate() {
             for value in values {
                 let mut run = first.clone();
                 run.values[position] = (key.to_owned(), value);
-                let found = said(base, sweep, &run);
-                found.iter().filter(|said| !wrong.contains(said)).for_each(|said| tell(about(sweep, said, line)));
+                let all = messages(base, sweep, &run);
+                all.iter()
+                    .filter(|message| !wrong.contains(message))
+                    .for_each(|message| tell(about(sweep, message, line)));
             }
         }
     }
@@ -45,9 +47,9 @@ pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool
         let Some((_, value)) = run.values.iter_mut().find(|(known, _)| known == key) else { return false };
         let Some(low) = number(value) else { return false };
         *value = Value::Float(low.floor() + 0.5);
-        said(base, sweep, &run)
+        messages(base, sweep, &run)
             .iter()
-            .any(|said| said.starts_with(&format!("{key} is")) && said.contains("a whole number"))
+            .any(|message| message.starts_with(&format!("{key} is")) && message.contains("a whole number"))
     })
 }
 
@@ -84,10 +86,10 @@ fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Others<'
 }
 
 /// What is wrong with the scene of a run, without lines of a file that nobody sees.
-fn said(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
+fn messages(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
     let table = match base.changed(sweep, run) {
         Ok(table) => table,
-        Err(said) => return vec![said],
+        Err(message) => return vec![message],
     };
     let text = match toml::to_string(&table) {
         Ok(text) => text,
@@ -98,8 +100,8 @@ fn said(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
         Err(SceneFileError::Keys(faults)) => faults
             .iter()
             .map(|fault| {
-                let said = fault.to_string();
-                said.strip_prefix(&format!("line {}: ", fault.line())).unwrap_or(&said).to_owned()
+                let message = fault.to_string();
+                message.strip_prefix(&format!("line {}: ", fault.line())).unwrap_or(&message).to_owned()
             })
             .collect(),
         Err(error) => vec![error.to_string()],
@@ -107,21 +109,21 @@ fn said(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
 }
 
 /// A fault with the line of the key that it names, or else of the key that was changed.
-fn about(sweep: &Sweep, said: &str, line: usize) -> Fault {
+fn about(sweep: &Sweep, message: &str, line: usize) -> Fault {
     let words = |key: &str| {
-        let mut words = said.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.'));
+        let mut words = message.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.'));
         words.any(|word| word.trim_end_matches('.') == key)
     };
     let named = sweep.lines().find(|(key, _)| words(key));
     let in_table = || {
         sweep
             .lines()
-            .find(|(key, _)| key.split('.').next().is_some_and(|table| said.starts_with(&format!("[{table}]"))))
+            .find(|(key, _)| key.split('.').next().is_some_and(|table| message.starts_with(&format!("[{table}]"))))
     };
     let line = match named {
         Some((_, line)) => line,
         None if line > 0 => line,
         None => in_table().map_or(0, |(_, line)| line),
     };
-    Fault { line, said: said.to_owned() }
+    Fault { line, message: message.to_owned() }
 }

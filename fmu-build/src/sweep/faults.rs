@@ -8,7 +8,7 @@ pub(super) struct Fault {
     /// Line in the file of the sweep, from 1; 0 for the file as a whole.
     pub(super) line: usize,
     /// What is wrong.
-    pub(super) said: String,
+    pub(super) message: String,
 }
 
 /// All faults of a file, in the order of their lines.
@@ -34,6 +34,6 @@ impl fmt::Display for Fault {
         if self.line > 0 {
             write!(f, "line {}: ", self.line)?;
         }
-        f.write_str(&self.said)
+        f.write_str(&self.message)
     }
 }

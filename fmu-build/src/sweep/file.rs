@@ -124,7 +124,7 @@ impl Reading<'_, '_> {
         self.unknown();
         let scene = self.text("scene").unwrap_or_else(|| {
             if !self.file.keys().any(|key| is_meant("scene", key.get_ref())) {
-                self.faults.push(Fault { line: 0, said: "scene is missing: a scene file, or a shipped scene".into() });
+                self.fault(0, "scene is missing: a scene file, or a shipped scene");
             }
             String::new()
         });
@@ -135,7 +135,7 @@ impl Reading<'_, '_> {
         let rate = self.number("rate_hz", 51_200.0, "from 100 to 1000000", |value| RATES.contains(&value));
         let filter = self.switch("filter");
         let (kinds, speed_profiles, noise) = (self.kinds(), self.texts("speed_profiles"), self.noise());
-        let (set, grid, random) = (self.set(), self.grid(), self.random());
+        let (set, grid, random) = (self.entries("set"), self.grid(), self.random());
         let mut sweep = Sweep {
             scene,
             runs: 0,
@@ -156,8 +156,10 @@ impl Reading<'_, '_> {
         let points = sweep.points();
         sweep.runs = self.whole("runs", 1, MOST).unwrap_or(points);
         if !self.file.keys().any(|key| is_meant("runs", key.get_ref())) && (!sweep.random.is_empty() || points > MOST) {
-            let said = format!("runs is missing: values are drawn at random, or the grid has more than {MOST} points");
-            self.faults.push(Fault { line: 0, said });
+            self.fault(
+                0,
+                format!("runs is missing: values are drawn at random, or the grid has more than {MOST} points"),
+            );
         }
         sweep
     }
@@ -173,9 +175,7 @@ impl Reading<'_, '_> {
                     KEYS.join(", ")
                 ),
             };
-            let fault =
-                Fault { line: (self.line)(key.span().start), said: format!("{} is unknown: {hint}", key.get_ref()) };
-            self.faults.push(fault);
+            self.fault((self.line)(key.span().start), format!("{} is unknown: {hint}", key.get_ref()));
         }
     }
 
@@ -184,9 +184,12 @@ impl Reading<'_, '_> {
         self.file.get_key_value(key).map_or(0, |(key, _)| (self.line)(key.span().start))
     }
 
+    fn fault(&mut self, line: usize, message: impl Into<String>) {
+        self.faults.push(Fault { line, message: message.into() });
+    }
+
     fn wrong(&mut self, key: &str, value: &Value, limit: &str) {
-        let line = self.line_of(key);
-        self.faults.push(Fault { line, said: format!("{key} is {value}: it must be {limit}") });
+        self.fault(self.line_of(key), format!("{key} is {value}: it must be {limit}"));
     }
 
     fn number(&mut self, key: &str, usual: f64, limit: &str, fits: impl Fn(f64) -> bool) -> f64 {
@@ -248,8 +251,8 @@ impl Reading<'_, '_> {
                 None => {
                     let words = Kind::ALL.map(|(word, _)| word);
                     let near = nearest(words, &word).map_or_else(String::new, |near| format!("; did you mean {near}?"));
-                    let said = format!("kinds: {word:?} is none of {}{near}", words.join(", "));
-                    self.faults.push(Fault { line: self.line_of("kinds"), said });
+                    let words = words.join(", ");
+                    self.fault(self.line_of("kinds"), format!("kinds: {word:?} is none of {words}{near}"));
                 }
             }
         }
@@ -283,18 +286,13 @@ impl Reading<'_, '_> {
         fitting
     }
 
-    fn set(&mut self) -> Vec<Entry<Value>> {
-        self.entries("set")
-    }
-
     fn grid(&mut self) -> Vec<Entry<Vec<Value>>> {
         let mut grid = Vec::new();
         for Entry { key, of, line } in self.entries("grid") {
             match of {
                 Value::Array(values) if !values.is_empty() => grid.push(Entry { key, of: values, line }),
                 other => {
-                    let said = format!("grid.{key} is {other}: it must be a list of values, one at least");
-                    self.faults.push(Fault { line, said });
+                    self.fault(line, format!("grid.{key} is {other}: it must be a list of values, one at least"));
                 }
             }
         }
@@ -307,8 +305,8 @@ impl Reading<'_, '_> {
             match pair(&of).filter(|[low, high]| low <= high) {
                 Some(limits) => random.push(Entry { key, of: limits, line }),
                 None => {
-                    let said = format!("random.{key} is {of}: it must be a list of two numbers, the lower one first");
-                    self.faults.push(Fault { line, said });
+                    let limit = "a list of two numbers, the lower one first";
+                    self.fault(line, format!("random.{key} is {of}: it must be {limit}"));
                 }
             }
         }
@@ -322,10 +320,10 @@ impl Reading<'_, '_> {
             self.wrong(table, value, &format!("a table [{table}] of keys of the scene"));
             return Vec::new();
         };
-        let mut found = Vec::new();
-        leaves(written, values, "", &mut found);
-        found.sort_by_key(|leaf| leaf.at);
-        found.into_iter().map(|Leaf { at, key, of }| Entry { key, of, line: (self.line)(at) }).collect()
+        let mut all = Vec::new();
+        leaves(written, values, "", &mut all);
+        all.sort_by_key(|leaf| leaf.at);
+        all.into_iter().map(|Leaf { at, key, of }| Entry { key, of, line: (self.line)(at) }).collect()
     }
 
     /// Keys that stand twice, of which the first stays, and two ways to say one thing.
@@ -338,17 +336,17 @@ impl Reading<'_, '_> {
         for (index, (key, line)) in all.iter().enumerate() {
             let line = *line;
             if let Some((_, first)) = all[..index].iter().find(|(other, _)| other == key) {
-                let said = format!("{key} stands in line {first} already: give it in one of [set], [grid], [random]");
-                self.faults.push(Fault { line, said });
+                self.fault(
+                    line,
+                    format!("{key} stands in line {first} already: give it in one of [set], [grid], [random]"),
+                );
             }
             if key == "shaft.speed_hz" && !sweep.speed_profiles.is_empty() {
-                let said = "shaft.speed_hz and speed_profiles exclude each other: give only one".to_owned();
-                self.faults.push(Fault { line, said });
+                self.fault(line, "shaft.speed_hz and speed_profiles exclude each other: give only one");
             }
             if key == "name" || key == "recorder" || key.starts_with("recorder.") {
-                let said =
-                    format!("{key} is the sweep's own: names are those of runs, and samples are taken at rate_hz");
-                self.faults.push(Fault { line, said });
+                let why = "names are those of runs, and samples are taken at rate_hz";
+                self.fault(line, format!("{key} is the sweep's own: {why}"));
             }
         }
     }
@@ -369,14 +367,14 @@ struct Leaf {
 }
 
 /// Keys and values of a table, those of tables in it included.
-fn leaves(at: &DeTable<'_>, values: &Table, path: &str, found: &mut Vec<Leaf>) {
+fn leaves(at: &DeTable<'_>, values: &Table, path: &str, all: &mut Vec<Leaf>) {
     for (key, value) in at.iter() {
         let name = key.get_ref().as_ref();
         let Some(of) = values.get(name) else { continue };
         let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         match (value.get_ref(), of) {
-            (DeValue::Table(inner), Value::Table(values)) => leaves(inner, values, &path, found),
-            _ => found.push(Leaf { at: key.span().start, key: path, of: of.clone() }),
+            (DeValue::Table(inner), Value::Table(values)) => leaves(inner, values, &path, all),
+            _ => all.push(Leaf { at: key.span().start, key: path, of: of.clone() }),
         }
     }
 }

@@ -210,7 +210,7 @@ impl Planned {
             None => None,
             Some(Err(error)) => {
                 let line = 1 + text.lines().take_while(|line| !line.trim_start().starts_with("scene")).count();
-                faults.push(Fault { line, said: format!("scene: {error:#}") });
+                faults.push(Fault { line, message: format!("scene: {error:#}") });
                 None
             }
             Some(Ok(base)) => {
@@ -258,8 +258,8 @@ fn prepare<'p>(
         let ready = runner.ready(&planned.run(missing[k])).ok()?;
         maps::needed(&ready.scene, &ready.texts).ok()
     };
-    workers::each(jobs, missing.len(), needed, |k, found| {
-        fingerprints[k] = found.unwrap_or_default();
+    workers::each(jobs, missing.len(), needed, |k, fingerprint| {
+        fingerprints[k] = fingerprint.unwrap_or_default();
         Ok(())
     })?;
     let mut uses: HashMap<u64, usize> = HashMap::new();

@@ -64,14 +64,14 @@ impl Record {
         let there: Vec<&str> = there.lines().collect();
         let missing = self.0.iter().find(|line| !there.contains(&line.as_str()));
         let gone = there.iter().find(|line| !self.0.iter().any(|own| own == *line));
-        let said = match (gone, missing) {
+        let difference = match (gone, missing) {
             (None, None) => return Ok(()),
             (Some(gone), Some(missing)) => format!("with `{gone}` where this one has `{missing}`"),
             (Some(gone), None) => format!("with `{gone}`, which this one has not"),
             (None, Some(missing)) => format!("without `{missing}`"),
         };
         bail!(
-            "{} holds another sweep, {said}: choose another folder with -o, or take this one away; {FILE} in it \
+            "{} holds another sweep, {difference}: choose another folder with -o, or take this one away; {FILE} in it \
              says all of it",
             folder.display()
         )

@@ -239,21 +239,21 @@ impl SweepRunner<'_> {
         let (time, cage) = (column("time")?, column("cage.speed")?);
         let (count, outer) = (scene.bearing.element_count, scene.housing_speed.unwrap_or(0.0));
         let against_outer: Vec<f64> = cage.iter().map(|cage| cage - outer).collect();
-        let found = Statistics::of(&kept.column(1)?, &passages(time, &against_outer, count, &kept.column(0)?));
+        let statistics = Statistics::of(&kept.column(1)?, &passages(time, &against_outer, count, &kept.column(0)?));
         let late = cage.iter().zip(time).filter(|(_, t)| **t > self.sweep.settle);
         let bpfo = late.map(|(cage, _)| passage_frequency(count, cage / TAU, outer / TAU)).collect::<Vec<_>>();
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
         let mut number = |name: &str, value: f64| put(name, Cell::Number(value));
         number("bpfo_hz", mean(&bpfo))?;
-        number("rms_m_s2", found.rms)?;
-        number("peak_m_s2", found.peak)?;
-        number("kurtosis", found.kurtosis)?;
+        number("rms_m_s2", statistics.rms)?;
+        number("peak_m_s2", statistics.peak)?;
+        number("kurtosis", statistics.kurtosis)?;
         if !carries_shaft_load(scene) {
             let [x, y] = [column("shaft.force.x")?, column("shaft.force.y")?].map(|force| force[0]);
             number("label_load_n", x.hypot(y))?;
             number("load", x.hypot(y))?;
         }
-        for (k, line) in found.envelope.into_iter().flatten().enumerate() {
+        for (k, line) in statistics.envelope.into_iter().flatten().enumerate() {
             number(&envelope_name(k + 1), line)?;
         }
         if let Some(defect) = passes_outer_defect(scene) {

@@ -195,7 +195,7 @@ fn two_bearings_carry_a_rigid_rotor() {
 }
 
 #[test]
-fn a_system_of_bearing_and_rotor_is_as_exact_in_each_master_as_its_page_says() {
+fn a_system_of_bearing_and_rotor_is_as_exact_by_each_algorithm_as_its_page_says() {
     let folder = common::folder("example-system");
     let said = run(SYSTEMS, &folder);
     assert_eq!(said.lines().count(), 4, "{said}");

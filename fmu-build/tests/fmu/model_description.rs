@@ -8,8 +8,8 @@ use std::{env, fs};
 
 use brinell::simulation::interface::table::{Causality, Kind, Variability};
 use fmu_build::package::Model;
-use fmu_build::package::description::fmi2::CAPABILITIES;
-use fmu_build::package::description::{fmi2, fmi3, units};
+use fmu_build::package::description::{model_description, units};
+use fmu_build::shared::Version;
 
 #[test]
 fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
@@ -19,7 +19,7 @@ fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
     for scene in common::scenes() {
         let model = Model::read(&scene).unwrap();
         let file = folder.join(&model.scene.name).with_extension("xml");
-        let written = fmi2::write(&model, &CAPABILITIES).unwrap();
+        let written = model_description(&model, Version::Fmi2).unwrap();
         if bless {
             fs::create_dir_all(&folder).unwrap();
             fs::write(&file, &written).unwrap();
@@ -44,7 +44,7 @@ const KEPT: [&str; 4] = ["6205-hosted", "6205-two-defects", "er16k-element", "er
 fn the_committed_model_descriptions_of_fmi_3_are_those_of_their_scenes() {
     let folder = common::root().join("modelDescription/fmi3");
     for name in KEPT {
-        let written = fmi3::write(&common::model(name)).unwrap();
+        let written = model_description(&common::model(name), Version::Fmi3).unwrap();
         let file = folder.join(name).with_extension("xml");
         if env::var_os("BLESS").is_some_and(|value| value == "1") {
             fs::create_dir_all(&folder).unwrap();
@@ -64,7 +64,7 @@ fn the_committed_model_descriptions_of_fmi_3_are_those_of_their_scenes() {
 fn both_versions_have_the_same_variables_by_the_same_names() {
     for scene in common::scenes() {
         let model = Model::read(&scene).unwrap();
-        let written = fmi3::write(&model).unwrap();
+        let written = model_description(&model, Version::Fmi3).unwrap();
         let mut names: BTreeSet<String> = BTreeSet::new();
         let mut reader = quick_xml::reader::Reader::from_str(&written);
         let mut last = String::new();
@@ -149,8 +149,8 @@ fn a_display_unit_is_the_unit_times_its_factor() {
 #[test]
 fn special_characters_of_a_scene_survive_in_the_xml() {
     let mut model = common::model("6205-healthy");
-    model.scene.description = "Ø 7.94 < \"8\" & more".to_owned();
-    let written = fmi2::write(&model, &CAPABILITIES).unwrap();
+    model.scene.description = "Ø 7.94 < \"8\" & more,\n\ton two lines".to_owned();
+    let written = model_description(&model, Version::Fmi2).unwrap();
     let mut reader = quick_xml::reader::Reader::from_str(&written);
     let description = loop {
         match reader.read_event().unwrap() {

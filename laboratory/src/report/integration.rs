@@ -90,7 +90,7 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
     };
     let tolerances = if extent == Extent::Full { &TOLERANCES[..] } else { &TOLERANCES[1..4] };
     let bar = bar((names.len() * (2 + METHODS.len() * tolerances.len())) as u64);
-    let mut found = Integration { rows: Vec::new(), checks: Vec::new(), stop: STOP };
+    let mut results = Integration { rows: Vec::new(), checks: Vec::new(), stop: STOP };
     for name in names {
         let model = Model::read(&scene_file(name))?;
         let subject = Subject::new(&model, (*name).to_owned(), STOP)?;
@@ -100,7 +100,7 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
         let other = subject.signals(Method::Rodas, 10.0 * REFERENCE)?;
         bar.inc(1);
         let oracle = if extent == Extent::Full { oracle(python, &model, data)? } else { None };
-        found.checks.push(Check {
+        results.checks.push(Check {
             scene: subject.name.clone(),
             signal: subject.signal(),
             pair: other.deviation(&reference),
@@ -109,14 +109,14 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
         for (label, method) in METHODS {
             for &tolerance in tolerances {
                 bar.set_message(format!("{name}: {label}, {tolerance:e}"));
-                found.rows.push(controlled(&subject, label, method, tolerance, &reference)?);
+                results.rows.push(controlled(&subject, label, method, tolerance, &reference)?);
                 bar.inc(1);
             }
         }
     }
     bar.finish_and_clear();
-    write(&data.join("integration.csv"), &found.rows)?;
-    Ok(found)
+    write(&data.join("integration.csv"), &results.rows)?;
+    Ok(results)
 }
 
 fn bar(length: u64) -> ProgressBar {

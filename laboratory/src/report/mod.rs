@@ -39,7 +39,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let stem = figures.join("error-vs-run-time");
     let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/report.py"));
     print!("{}", python.run_file(script, [data.as_os_str(), stem.as_os_str()])?);
-    let text = markdown::page(&machine::description(), &contacts, &integration);
+    let text = markdown::page(&machine::description(), &contacts, &integration)?;
     let path = folder.join("error-vs-run-time.md");
     whole_file::write(&path, text)?;
     println!("{}", path.display());

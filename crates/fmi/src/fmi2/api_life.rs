@@ -1,4 +1,4 @@
-//! The exported functions that begin, arrange and end the life of an instance.
+//! The exported functions that begin and arrange the life of an instance.
 
 #![allow(non_snake_case)]
 
@@ -7,9 +7,9 @@ use std::ptr;
 use super::functions;
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
 use crate::c_interface::{Logger, uri};
-use crate::instance::{Clock, Failure, Mode, handles};
+use crate::instance::{Clock, Failure, Mode};
 use crate::instantiation::{Refusal, text};
-use crate::{arguments, boundary, instantiation};
+use crate::{boundary, instantiation};
 
 /// `fmi2GetTypesPlatform`: "default".
 #[unsafe(no_mangle)]
@@ -67,41 +67,10 @@ pub unsafe extern "C" fn fmi2Instantiate(
 /// `fmi2FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
 ///
 /// # Safety
-/// `c` may be any value. The standard forbids a call while another one on the same instance runs; it is then ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
-    if let Ok(instance) = handles::borrow(c)
-        && functions::FREE_INSTANCE.allowed.contains(instance.mode)
-    {
-        instantiation::free(instance, "fmi2FreeInstance");
-    }
-}
-
 /// `fmi2SetDebugLogging`: logging off, or on for the categories listed, an empty list meaning all. An unknown
 /// category is a warning; the others are set.
 ///
 /// # Safety
-/// `categories` is null or points to `nCategories` strings, each null or ended by NUL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: Component,
-    loggingOn: Boolean,
-    nCategories: usize,
-    categories: *const FmiString,
-) -> Status {
-    boundary::call(c, &functions::SET_DEBUG_LOGGING, |instance| {
-        // SAFETY: this function's contract; null is refused.
-        let pointers = unsafe { arguments::array("categories", categories, nCategories)? };
-        let names = pointers
-            .iter()
-            // SAFETY: this function's contract; null is refused.
-            .map(|pointer| unsafe { arguments::string("categories", *pointer) })
-            .collect::<Result<Vec<_>, _>>()?;
-        let switched = instance.logger.switch(loggingOn != FALSE, &names);
-        switched.map_err(|name| Failure::UnknownCategory(name.to_owned()))
-    })
-}
-
 /// `fmi2SetupExperiment`: start, stop and tolerance.
 ///
 /// A tolerance that the host defines can only tighten the one in force (`solver.tolerance`): hosts hand in their own
@@ -140,46 +109,5 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> Status {
         }
         instance.enter(Mode::Initialization, &functions::ENTER_INITIALIZATION_MODE);
         Ok(())
-    })
-}
-
-/// `fmi2ExitInitializationMode`: finds the static equilibrium at the start time.
-///
-/// # Safety
-/// `c` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> Status {
-    boundary::call(c, &functions::EXIT_INITIALIZATION_MODE, |instance| {
-        let clock = instance.clock.ok_or(Failure::NotSetUp)?;
-        instance.initialize(clock.start)?;
-        instance.enter(Mode::StepComplete, &functions::EXIT_INITIALIZATION_MODE);
-        Ok(())
-    })
-}
-
-/// `fmi2Terminate`: no more steps; results may still be read. A warning if the recording cannot be stored.
-///
-/// # Safety
-/// `c` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(c: Component) -> Status {
-    boundary::call(c, &functions::TERMINATE, |instance| {
-        let finished = instance.finish_recording("stay in memory: fmi2FreeInstance and fmi2Reset try once more");
-        instance.enter(Mode::Terminated, &functions::TERMINATE);
-        finished
-    })
-}
-
-/// `fmi2Reset`: as after `fmi2Instantiate`. Saved states and the choice of log categories stay. A warning if samples of
-/// the recording could not be stored: they are lost, the instance is as good as new.
-///
-/// # Safety
-/// `c` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(c: Component) -> Status {
-    boundary::call(c, &functions::RESET, |instance| {
-        let unstored = instance.reset()?;
-        instance.enter(Mode::Instantiated, &functions::RESET);
-        unstored.map_or(Ok(()), Err)
     })
 }

@@ -12,10 +12,10 @@
 //! | `functions` | in which modes each function may be called |
 //! | `api_*` | the exported functions, grouped as the standard groups them |
 
+mod api_both_versions;
 mod api_derivatives;
 mod api_life;
 mod api_model_exchange;
-mod api_state;
 mod api_step;
 mod api_variables;
 mod functions;
@@ -23,10 +23,10 @@ mod functions;
 mod tests;
 mod types;
 
+pub use api_both_versions::*;
 pub use api_derivatives::*;
 pub use api_life::*;
 pub use api_model_exchange::*;
-pub use api_state::*;
 pub use api_step::*;
 pub use api_variables::*;
 pub use brinell::simulation::interface::Category;

@@ -78,56 +78,43 @@ fn with_rows<R>(
     result
 }
 
-/// `fmi3GetDirectionalDerivative`: J·`seed`, where J holds the partial derivatives of the unknowns by the knowns.
-///
-/// # Safety
-/// Pointers are null or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
-    instance: Instance,
-    unknowns: *const ValueReference,
-    nUnknowns: usize,
-    knowns: *const ValueReference,
-    nKnowns: usize,
-    seed: *const f64,
-    nSeed: usize,
-    sensitivity: *mut f64,
-    nSensitivity: usize,
-) -> Status {
-    let wanted = Product {
-        unknowns: Given { pointer: unknowns, count: nUnknowns },
-        knowns: Given { pointer: knowns, count: nKnowns },
-        seed: Given { pointer: seed, count: nSeed },
-        sensitivity: Given { pointer: sensitivity, count: nSensitivity },
-    };
-    // SAFETY: this function's contract.
-    unsafe { product(instance, &functions::GET_DIRECTIONAL_DERIVATIVE, wanted, false) }
+/// Products with J, which holds the partial derivatives of the unknowns by the knowns: name, row of the table of modes,
+/// whether the seed belongs to the unknowns.
+macro_rules! products {
+    ($($(#[$meaning:meta])* $name:ident $row:ident $adjoint:literal;)*) => {$(
+        $(#[$meaning])*
+        ///
+        /// # Safety
+        /// Pointers are null or point to as many elements as said.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            instance: Instance,
+            unknowns: *const ValueReference,
+            nUnknowns: usize,
+            knowns: *const ValueReference,
+            nKnowns: usize,
+            seed: *const f64,
+            nSeed: usize,
+            sensitivity: *mut f64,
+            nSensitivity: usize,
+        ) -> Status {
+            let wanted = Product {
+                unknowns: Given { pointer: unknowns, count: nUnknowns },
+                knowns: Given { pointer: knowns, count: nKnowns },
+                seed: Given { pointer: seed, count: nSeed },
+                sensitivity: Given { pointer: sensitivity, count: nSensitivity },
+            };
+            // SAFETY: this function's contract.
+            unsafe { product(instance, &functions::$row, wanted, $adjoint) }
+        }
+    )*};
 }
 
-/// `fmi3GetAdjointDerivative`: `seed`ᵀ·J.
-///
-/// # Safety
-/// Pointers are null or point to as many elements as said.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetAdjointDerivative(
-    instance: Instance,
-    unknowns: *const ValueReference,
-    nUnknowns: usize,
-    knowns: *const ValueReference,
-    nKnowns: usize,
-    seed: *const f64,
-    nSeed: usize,
-    sensitivity: *mut f64,
-    nSensitivity: usize,
-) -> Status {
-    let wanted = Product {
-        unknowns: Given { pointer: unknowns, count: nUnknowns },
-        knowns: Given { pointer: knowns, count: nKnowns },
-        seed: Given { pointer: seed, count: nSeed },
-        sensitivity: Given { pointer: sensitivity, count: nSensitivity },
-    };
-    // SAFETY: this function's contract.
-    unsafe { product(instance, &functions::GET_ADJOINT_DERIVATIVE, wanted, true) }
+products! {
+    /// `fmi3GetDirectionalDerivative`: J·`seed`.
+    fmi3GetDirectionalDerivative GET_DIRECTIONAL_DERIVATIVE false;
+    /// `fmi3GetAdjointDerivative`: `seed`ᵀ·J.
+    fmi3GetAdjointDerivative GET_ADJOINT_DERIVATIVE true;
 }
 
 /// `fmi3GetOutputDerivatives`: derivatives of outputs by time where the instance is. An order holds for all elements of

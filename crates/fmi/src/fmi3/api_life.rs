@@ -1,4 +1,4 @@
-//! The exported functions that begin, arrange and end the life of an instance.
+//! The exported functions that begin and arrange the life of an instance.
 
 #![allow(non_snake_case)]
 
@@ -11,10 +11,10 @@ use super::types::{
     LogMessageCallback, PreemptionCallback, Status, ValueReference,
 };
 use crate::c_interface::{Logger, uri};
-use crate::instance::{Addressing, Clock, Failure, IntermediateUpdates, Mode, handles};
+use crate::instance::{Addressing, Clock, IntermediateUpdates, Mode};
 use crate::instantiation::{Refusal, text};
 use crate::resources::SharedModel;
-use crate::{arguments, boundary, instance, instantiation};
+use crate::{boundary, instance, instantiation};
 
 /// `fmi3GetVersion`: "3.0".
 #[unsafe(no_mangle)]
@@ -175,42 +175,10 @@ unsafe fn refuse(
 /// `fmi3FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
 ///
 /// # Safety
-/// `instance` may be any value. The standard forbids a call while another one on the same instance runs; it is then
-/// ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeInstance(instance: Instance) {
-    if let Ok(instance) = handles::borrow(instance)
-        && functions::FREE_INSTANCE.allowed.contains(instance.mode)
-    {
-        instantiation::free(instance, "fmi3FreeInstance");
-    }
-}
-
 /// `fmi3SetDebugLogging`: turns the categories listed on or off, all of them if none is listed. An unknown category is
 /// a warning; the others are set.
 ///
 /// # Safety
-/// `categories` is null or points to `nCategories` strings, each null or ended by NUL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetDebugLogging(
-    instance: Instance,
-    loggingOn: Bool,
-    nCategories: usize,
-    categories: *const FmiString,
-) -> Status {
-    boundary::call(instance, &functions::SET_DEBUG_LOGGING, |instance| {
-        // SAFETY: this function's contract; null is refused.
-        let pointers = unsafe { arguments::array("categories", categories, nCategories)? };
-        let names = pointers
-            .iter()
-            // SAFETY: this function's contract; null is refused.
-            .map(|pointer| unsafe { arguments::string("categories", *pointer) })
-            .collect::<Result<Vec<_>, _>>()?;
-        let turned = instance.logger.turn(loggingOn != FALSE, &names);
-        turned.map_err(|name| Failure::UnknownCategory(name.to_owned()))
-    })
-}
-
 /// `fmi3EnterInitializationMode`: start, stop and tolerance. A tolerance can only tighten the one in force
 /// (`solver.tolerance`); to loosen it, set `solver.tolerance`.
 ///
@@ -233,46 +201,5 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
         instance.clock = Some(clock);
         instance.enter(Mode::Initialization, &functions::ENTER_INITIALIZATION_MODE);
         Ok(())
-    })
-}
-
-/// `fmi3ExitInitializationMode`: finds the static equilibrium at the start time.
-///
-/// # Safety
-/// `instance` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: Instance) -> Status {
-    boundary::call(instance, &functions::EXIT_INITIALIZATION_MODE, |instance| {
-        let clock = instance.clock.ok_or(Failure::NotSetUp)?;
-        instance.initialize(clock.start)?;
-        instance.enter(Mode::StepComplete, &functions::EXIT_INITIALIZATION_MODE);
-        Ok(())
-    })
-}
-
-/// `fmi3Terminate`: no more steps; results may still be read. A warning if the recording cannot be stored.
-///
-/// # Safety
-/// `instance` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Terminate(instance: Instance) -> Status {
-    boundary::call(instance, &functions::TERMINATE, |instance| {
-        let finished = instance.finish_recording("stay in memory: fmi3FreeInstance and fmi3Reset try once more");
-        instance.enter(Mode::Terminated, &functions::TERMINATE);
-        finished
-    })
-}
-
-/// `fmi3Reset`: as after `fmi3InstantiateCoSimulation`. Saved states and the choice of log categories stay. A warning
-/// if samples of the recording could not be stored: they are lost, the instance is as good as new.
-///
-/// # Safety
-/// `instance` may be any value.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Reset(instance: Instance) -> Status {
-    boundary::call(instance, &functions::RESET, |instance| {
-        let unstored = instance.reset()?;
-        instance.enter(Mode::Instantiated, &functions::RESET);
-        unstored.map_or(Ok(()), Err)
     })
 }

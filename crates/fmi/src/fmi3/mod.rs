@@ -11,11 +11,11 @@
 //! | `values` | how scalars and arrays are read and set |
 //! | `api_*` | the exported functions, grouped as the standard groups them |
 
+mod api_both_versions;
 mod api_dependencies;
 mod api_derivatives;
 mod api_life;
 mod api_not_provided;
-mod api_state;
 mod api_step;
 mod api_variables;
 mod functions;
@@ -24,11 +24,11 @@ mod tests;
 mod types;
 mod values;
 
+pub use api_both_versions::*;
 pub use api_dependencies::*;
 pub use api_derivatives::*;
 pub use api_life::*;
 pub use api_not_provided::*;
-pub use api_state::*;
 pub use api_step::*;
 pub use api_variables::*;
 pub use types::*;

@@ -1,8 +1,9 @@
-//! The XML files of an FMU, written from the variable table.
+//! The XML files of an FMU, made from the variable table.
 
-pub mod fmi2;
-pub mod fmi3;
-pub mod terminals;
+mod model_description;
+mod terminals;
 pub mod units;
 
-pub use fmi2::{CAPABILITIES, Capabilities, causality};
+pub use model_description::model_description;
+pub(crate) use model_description::{Listed, causality, listed};
+pub use terminals::terminals;

@@ -6,19 +6,6 @@ use std::f64::consts::PI;
 
 use brinell::simulation::interface::table::Unit;
 
-/// Exponents of the base units.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct BaseUnit {
-    /// Kilogram.
-    pub kg: i8,
-    /// Metre.
-    pub m: i8,
-    /// Second.
-    pub s: i8,
-    /// Radian.
-    pub rad: i8,
-}
-
 /// A unit that a host shows instead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DisplayUnit {
@@ -28,43 +15,34 @@ pub struct DisplayUnit {
     pub factor: f64,
 }
 
-/// The name of the unit in the model description, in CSV headers and in documentation.
-pub fn name(unit: Unit) -> &'static str {
+/// The unit's name, and its exponents of kilogram, metre, second and radian.
+fn definition(unit: Unit) -> (&'static str, [i8; 4]) {
     match unit {
-        Unit::One => "1",
-        Unit::Kilogram => "kg",
-        Unit::Metre => "m",
-        Unit::Second => "s",
-        Unit::Radian => "rad",
-        Unit::MetrePerSecond => "m/s",
-        Unit::MetrePerSecondSquared => "m/s2",
-        Unit::RadianPerSecond => "rad/s",
-        Unit::Newton => "N",
-        Unit::NewtonMetre => "N.m",
-        Unit::NewtonPerMetre => "N/m",
-        Unit::NewtonSecondPerMetre => "N.s/m",
-        Unit::SecondPerMetre => "s/m",
+        Unit::One => ("1", [0, 0, 0, 0]),
+        Unit::Kilogram => ("kg", [1, 0, 0, 0]),
+        Unit::Metre => ("m", [0, 1, 0, 0]),
+        Unit::Second => ("s", [0, 0, 1, 0]),
+        Unit::Radian => ("rad", [0, 0, 0, 1]),
+        Unit::MetrePerSecond => ("m/s", [0, 1, -1, 0]),
+        Unit::MetrePerSecondSquared => ("m/s2", [0, 1, -2, 0]),
+        Unit::RadianPerSecond => ("rad/s", [0, 0, -1, 1]),
+        Unit::Newton => ("N", [1, 1, -2, 0]),
+        Unit::NewtonMetre => ("N.m", [1, 2, -2, 0]),
+        Unit::NewtonPerMetre => ("N/m", [1, 0, -2, 0]),
+        Unit::NewtonSecondPerMetre => ("N.s/m", [1, 0, -1, 0]),
+        Unit::SecondPerMetre => ("s/m", [0, -1, 1, 0]),
     }
 }
 
-/// The unit in base units.
-pub fn base_unit(unit: Unit) -> BaseUnit {
-    let none = BaseUnit::default();
-    match unit {
-        Unit::One => none,
-        Unit::Kilogram => BaseUnit { kg: 1, ..none },
-        Unit::Metre => BaseUnit { m: 1, ..none },
-        Unit::Second => BaseUnit { s: 1, ..none },
-        Unit::Radian => BaseUnit { rad: 1, ..none },
-        Unit::MetrePerSecond => BaseUnit { m: 1, s: -1, ..none },
-        Unit::MetrePerSecondSquared => BaseUnit { m: 1, s: -2, ..none },
-        Unit::RadianPerSecond => BaseUnit { rad: 1, s: -1, ..none },
-        Unit::Newton => BaseUnit { kg: 1, m: 1, s: -2, ..none },
-        Unit::NewtonMetre => BaseUnit { kg: 1, m: 2, s: -2, ..none },
-        Unit::NewtonPerMetre => BaseUnit { kg: 1, s: -2, ..none },
-        Unit::NewtonSecondPerMetre => BaseUnit { kg: 1, s: -1, ..none },
-        Unit::SecondPerMetre => BaseUnit { m: -1, s: 1, ..none },
-    }
+/// The name of the unit in the model description, in CSV headers and in documentation.
+pub fn name(unit: Unit) -> &'static str {
+    definition(unit).0
+}
+
+/// The base units and their exponents.
+pub fn base_units(unit: Unit) -> [(&'static str, i8); 4] {
+    let [kg, m, s, rad] = definition(unit).1;
+    [("kg", kg), ("m", m), ("s", s), ("rad", rad)]
 }
 
 /// The unit that a host shows instead, if there is one.

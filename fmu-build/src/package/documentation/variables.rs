@@ -1,31 +1,11 @@
 //! The tables of variables.
 
 use brinell::simulation::Simulation;
-use brinell::simulation::interface::table::{Causality, Kind, Variable};
-use brinell::simulation::run::of_all_elements;
+use brinell::simulation::interface::table::{Causality, Kind};
 use minijinja::{Value, context};
 
-use crate::package::description::fmi2::causality;
-use crate::package::description::units;
+use crate::package::description::{Listed, causality, listed, units};
 use crate::shared::Version;
-
-/// The variables as the version has them: in FMI 3.0 what every element has is an array.
-fn listed(simulation: &Simulation, version: Version) -> Vec<Variable> {
-    let table = simulation.table();
-    if version == Version::Fmi2 {
-        return table.to_vec();
-    }
-    let arrays = simulation.arrays();
-    let shown = |row: &Variable| match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
-        None => Some(Variable { description: row.meaning().to_owned(), ..row.clone() }),
-        Some(array) if array.rows[0] == row.reference => {
-            let (name, description) = of_all_elements(row);
-            Some(Variable { name: format!("{name}[{}]", array.rows.len()), description, ..row.clone() })
-        }
-        Some(_) => None,
-    };
-    table.iter().filter_map(shown).collect()
-}
 
 /// The variables of each kind that there are.
 pub(super) fn variables(simulation: &Simulation, version: Version) -> Vec<Value> {
@@ -37,14 +17,15 @@ pub(super) fn variables(simulation: &Simulation, version: Version) -> Vec<Value>
         (Causality::Local, "Counters, local"),
     ];
     let of_kind = |(kind, title): (Causality, &str)| {
-        let rows: Vec<Value> = table.iter().filter(|variable| variable.causality == kind).map(row).collect();
+        let rows: Vec<Value> = table.iter().filter(|row| row.variable.causality == kind).map(row).collect();
         let starts = matches!(kind, Causality::Input | Causality::Parameter);
         (!rows.is_empty()).then(|| context! { id => causality(kind), title, starts, rows })
     };
     kinds.into_iter().filter_map(of_kind).collect()
 }
 
-fn row(variable: &Variable) -> Value {
+fn row(Listed { variable, elements }: &Listed) -> Value {
+    let name = format!("{}{}", variable.name, elements.map_or(String::new(), |count| format!("[{count}]")));
     let (unit, start) = match &variable.kind {
         Kind::Real { unit, start, .. } => (units::name(*unit), start.map(|value| format!("{value:?}"))),
         Kind::Integer => ("", None),
@@ -55,5 +36,5 @@ fn row(variable: &Variable) -> Value {
         Kind::Text { start } => ("", Some(start.clone())),
     };
     let start = start.unwrap_or_default();
-    context! { name => &variable.name, unit, start, description => &variable.description }
+    context! { name, unit, start, description => &variable.description }
 }
