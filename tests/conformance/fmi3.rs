@@ -101,7 +101,7 @@ pub(crate) const RULES: &[Rule] = &[
          end; being watched changes no bit.",
         &[
             Test("a_run_that_is_watched_has_the_bits_of_one_that_is_not"),
-            Test("law_love_which_starts_anew_after_each_inspection_agrees_within_what_its_solver_leaves"),
+            Test("a_run_under_law_love_that_is_watched_has_the_bits_of_one_that_is_not"),
         ],
     ),
     (

@@ -15,7 +15,7 @@ use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::equivalent::SecondDerivatives;
 use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution};
 use brinell::contact::map::{ContactMap, MapPlan, MapSpecification, Sequential};
-use brinell::contact::near_defect::{NearDefect, NearLove, NearMap};
+use brinell::contact::near_defect::{LoveSolvers, NearDefect, NearLove, NearMap};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::numerics::dual::Dual;
@@ -41,14 +41,14 @@ impl Near {
 
     /// Δ, ∂Δ/∂u and ∂Δ/∂s in a cell.
     fn first(&self, cell: usize, u: f64, s: f64) -> Option<[f64; 3]> {
-        let found = self.law.approach(cell, u, s / self.radius, DISTANCE, true).ok()?;
+        let found = self.law.approach(cell, u, s / self.radius, DISTANCE, true, &mut LoveSolvers::default()).ok()?;
         Some([found.value, found.by_path, found.by_angle / self.radius])
     }
 
     fn second(&self, cell: usize, u: f64, s: f64) -> Option<SecondDerivatives> {
         let dual = Dual::<f64, 2>::variable;
         let (u, angle) = (dual(u, 0), dual(s / self.radius, 1));
-        let found = self.law.approach(cell, u, angle, Dual::from(DISTANCE), true).ok()?;
+        let found = self.law.approach(cell, u, angle, Dual::from(DISTANCE), true, &mut LoveSolvers::default()).ok()?;
         let ([uu, us], [_, ss]) = (found.by_path.by, found.by_angle.by);
         Some(SecondDerivatives { uu, us: us / self.radius, ss: ss / (self.radius * self.radius) })
     }

@@ -1,7 +1,7 @@
 //! What one element meets at an instant: where it is, how it moves, and how all that it touches does. In numbers of any
 //! kind, so that a change of any of it is followed through the contacts by the one text there is of them.
 
-use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, OilFilms, PathMotion, Turn};
+use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Lead, Model, OilFilms, PathMotion, Turn};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::scalar::Scalar;
 
@@ -140,15 +140,27 @@ impl Model {
     pub(in crate::dynamics) fn element_motion(
         &self,
         j: usize,
+        on_path: PathMotion,
+        now: &FramedKinematics,
+    ) -> ElementMotion {
+        self.element_motion_with(j, &self.lead(j, &now.cage), on_path, now)
+    }
+
+    /// The same for a known lead.
+    #[inline]
+    pub(in crate::dynamics) fn element_motion_with(
+        &self,
+        j: usize,
+        lead: &Lead,
         PathMotion { path, rate: path_rate }: PathMotion,
         now: &FramedKinematics,
     ) -> ElementMotion {
-        let (e_r, [omega, alpha]) = (self.direction(j, &now.cage), self.element_speed(j, &now.cage));
+        let (e_r, [omega, alpha]) = (self.direction_with(j, &now.cage, lead), lead.speed(&now.cage));
         ElementMotion {
             element: j,
             e_r,
             e_t: turned(e_r),
-            angle: self.element_angle(j, &now.cage),
+            angle: self.angle_with(j, &now.cage, lead),
             omega,
             alpha,
             path,

@@ -2,8 +2,9 @@
 
 use super::contact_lanes::Record;
 use crate::contact::error::ContactError;
+use crate::contact::near_defect::LoveSolvers;
 use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Model, SMOOTH};
+use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Lead, LeadPieces, Model, SMOOTH};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
@@ -15,6 +16,10 @@ pub struct Forces {
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
     pub(in crate::dynamics) elements: Vec<ElementBlock>,
+    /// What an uneven cage itself is ahead.
+    pub(crate) cage_lead: Lead,
+    /// Polynomials of an uneven cage.
+    pub(crate) lead_pieces: LeadPieces,
     /// Outer contacts that are not those of the smooth rigid raceway.
     pub(in crate::dynamics) non_smooth_outer: Vec<NonSmooth>,
     /// Inner contacts near defects.
@@ -34,6 +39,8 @@ pub struct Forces {
     /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(in crate::dynamics) torques: [f64; 3],
+    /// Where contacts of law `love` are solved.
+    pub solvers: LoveSolvers,
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
     /// The last contact near a defect that could not be computed, of an element whose position is a number.
@@ -59,6 +66,8 @@ impl Clone for Forces {
         Self {
             contacts: self.contacts.clone(),
             elements: self.elements.clone(),
+            lead_pieces: self.lead_pieces.clone(),
+            solvers: self.solvers.clone(),
             unsolved: self.unsolved.clone(),
             non_smooth_outer: with_its_room(&self.non_smooth_outer),
             non_smooth_inner: with_its_room(&self.non_smooth_inner),
@@ -78,7 +87,7 @@ fn with_its_room<T: Copy>(list: &Vec<T>) -> Vec<T> {
 impl Forces {
     /// Room for the contacts of a model, which is less where it has no defect inside.
     pub fn of(model: &Model) -> Self {
-        let mut forces = Self::new(model.element_count);
+        let mut forces = Self { solvers: model.love_solvers(), ..Self::new(model.element_count) };
         if !model.may_have_inner_defects {
             (forces.non_smooth_inner, forces.non_smooth_contacts[0]) = (Vec::new(), Vec::new());
         }
@@ -96,6 +105,7 @@ impl Forces {
             count,
             contacts: Record::new(slots),
             elements: vec![ElementBlock::default(); slots / WIDEST],
+            lead_pieces: LeadPieces::new(count),
             non_smooth_outer: Vec::with_capacity(count),
             non_smooth_inner: Vec::with_capacity(count),
             non_smooth_contacts: [(); 2].map(|()| Vec::with_capacity(count)),
@@ -136,13 +146,6 @@ impl Forces {
         }
     }
 
-    /// Path (m) of each element in `state`, of which these are the forces: where it is, or where it is in balance.
-    /// There may be more slots than elements.
-    #[inline]
-    pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
-        if model.elements_in_balance() { &self.contacts.balanced[0] } else { state }
-    }
-
     /// Puts where elements in balance are, and how fast they move, into their slots of a state; elements with inertia
     /// have their own.
     #[inline]
@@ -175,6 +178,11 @@ impl Forces {
             record.outer_pushing[j] = other.pushing;
             [record.outer[j], record.outer_radial[j], record.outer_tangential[j]] = other.force;
         }
+    }
+
+    /// Angle (rad) by which element `j` is ahead of its position in a cage that turns evenly.
+    pub(crate) fn element_lead(&self, j: usize) -> f64 {
+        self.elements[j / WIDEST].lead[j % WIDEST]
     }
 
     /// The bearing's force on the inner ring (N).

@@ -1,8 +1,9 @@
 //! Where elements meet the two raceways, and in which cells of their defects.
 
 use super::kernel::{InnerGap, Meeting};
+use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{CageState, Cells, Defects, Excitation, Frames, Kinematics, Model, SMOOTH};
+use crate::dynamics::parameters::{CageState, Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
@@ -14,15 +15,11 @@ impl Model {
         InnerGap::of(self.outer_centre_radius + u, u, offset, clearance, false)
     }
 
-    /// Direction φ (rad) of element `j` at path `u` from the inner ring's centre.
-    pub fn inner_direction_of(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
-        self.element_angle(j, &now.cage) + self.inner_lead(j, u, now)
-    }
-
-    /// What that direction is ahead of the element's angle θ about the outer ring's centre (rad).
-    pub fn inner_lead(&self, j: usize, u: f64, now: &Kinematics) -> f64 {
+    /// What the direction φ of element `j`, which is `lead` ahead on the cage, at path `u` from the inner ring's centre is
+    /// ahead of its angle θ about the outer ring's (rad).
+    pub(crate) fn inner_lead(&self, j: usize, u: f64, now: &Kinematics, lead: &Lead) -> f64 {
         // The direction alone, of which the clearance is no part.
-        self.inner_gap(u, now.offset(), self.direction(j, &now.cage), self.radial_clearance).lead()
+        self.inner_gap(u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()
     }
 
     /// Element `j` at path `u` where it meets the outer raceway.
@@ -69,8 +66,9 @@ impl Model {
         let (now, mut cells) =
             (self.kinematics(excitation, tau, state), Cells::smooth(self.element_count, self.defective.len()));
         for j in 0..self.element_count {
-            let theta = self.element_angle(j, &now.cage);
-            let directions = [self.inner_direction_of(j, state[j], &now), theta];
+            let lead = self.lead(j, &now.cage);
+            let theta = self.angle_with(j, &now.cage, &lead);
+            let directions = [theta + self.inner_lead(j, state[j], &now, &lead), theta];
             let cell =
                 |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
             cells.inner[j] = cell(&self.inner.defects, directions[0]);
@@ -83,11 +81,18 @@ impl Model {
     }
 
     /// Over a defect the path (m) of an element without force is where the approach vanishes.
-    pub(in crate::dynamics) fn touching_path(&self, j: usize, cells: [u32; 2], angle: f64, frames: &Frames) -> f64 {
+    pub(in crate::dynamics) fn touching_path(
+        &self,
+        j: usize,
+        cells: [u32; 2],
+        angle: f64,
+        frames: &Frames,
+        solvers: &mut LoveSolvers,
+    ) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
             let meeting = self.outer_meeting_at(angle, j, cells, u);
-            let near = self.near_or_unsolved(RacewaySide::Outer, &meeting, frames).approach;
+            let near = self.near_or_unsolved(RacewaySide::Outer, &meeting, frames, solvers).approach;
             let step = near.value / near.by_path;
             u -= step;
             if step.abs() < 1e-15 {

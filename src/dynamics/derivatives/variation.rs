@@ -8,6 +8,7 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
+use crate::contact::near_defect::LoveSolvers;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
 use crate::dynamics::parameters::{
     CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
@@ -157,22 +158,22 @@ impl Model {
         }
     }
 
-    /// Change of the contact forces under `excitation` at τ = 0 for a small change. `acceleration` is the outer ring's.
-    /// Of elements in balance it puts the change of their paths into `by`.
+    /// Change of the contact forces under `excitation` at τ = 0 for a small change `by`. `acceleration` is the outer
+    /// ring's. Of elements in balance it puts the change of their paths into `by`.
     pub fn vary(
         &self,
         excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         acceleration: Vector,
-        by: &mut Variation,
-        change: &mut ForceChange,
+        (by, change): (&mut Variation, &mut ForceChange),
+        solvers: &mut LoveSolvers,
     ) {
         let now = self.kinematics(excitation, 0.0, state);
         let mut rings = Rings::zeros();
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
-            let forces = self.changing_forces(j, cells, state, &now, by);
+            let forces = self.changing_forces((j, cells), state, &now, by, solvers);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
             let around = forces.inner.y + forces.outer.y;
@@ -200,17 +201,17 @@ impl Model {
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.
     fn changing_forces(
         &self,
-        j: usize,
-        cells: &Cells,
+        (j, cells): (usize, &Cells),
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
+        solvers: &mut LoveSolvers,
     ) -> ElementForces<Changing> {
         let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by));
         if self.elements_in_balance() {
-            self.in_balance(cells, state[j], &at).forces()
+            self.in_balance(cells, state[j], &at, solvers).forces()
         } else {
-            self.element_forces(cells, &at)
+            self.element_forces(cells, &at, solvers)
         }
     }
 
@@ -222,10 +223,12 @@ impl Model {
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
+        solvers: &mut LoveSolvers,
     ) -> Option<()> {
         let now = self.kinematics(excitation, 0.0, state);
-        let change = |by: &Variation| -> Rings {
-            (0..self.element_count).map(|j| on_rings(&self.changing_forces(j, cells, state, &now, by))).sum()
+        let mut change = |by: &Variation| -> Rings {
+            let elements = 0..self.element_count;
+            elements.map(|j| on_rings(&self.changing_forces((j, cells), state, &now, by, solvers))).sum()
         };
         let force = loads + change(by);
         let mut jacobian = RingJacobian::zeros();
@@ -242,12 +245,19 @@ impl Model {
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block (N/m), for
     /// a small change at the instant τ = 0 of `excitation`.
-    pub fn vary_stiffness(&self, excitation: &Excitation, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
+    pub fn vary_stiffness(
+        &self,
+        excitation: &Excitation,
+        cells: &Cells,
+        state: &[f64],
+        by: &Variation,
+        solvers: &mut LoveSolvers,
+    ) -> Matrix {
         let now = self.kinematics(excitation, 0.0, state);
         let mut jacobian = RingJacobian::<Changing>::zeros();
         for j in 0..self.element_count {
             let at = self.changing_motion(j, state, &now, by).standing();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at), &mut jacobian);
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, solvers), &mut jacobian);
         }
         Matrix::from_fn(|row, column| jacobian[(row, column)].by[0])
     }

@@ -19,6 +19,7 @@
 //! the path at which less is.
 
 pub use super::error::EquilibriumError;
+use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Linearized;
 use crate::dynamics::contacts::Meeting;
@@ -57,33 +58,34 @@ impl Model {
         cells: &Cells,
         state: &mut [f64],
     ) -> Result<(), EquilibriumError> {
+        let solvers = &mut LoveSolvers::default();
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
         let given = Given { excitation, cells, still: self.kinematics(excitation, 0.0, state) };
         let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
-        let mut balance = self.balance(&given, rings, &mut u);
+        let mut balance = self.balance(&given, rings, &mut u, solvers);
         let mut iteration = 0;
         // An element without a balance where the rings are to begin with is told by the checks below.
         while balance.residual() > balance.limit && balance.residual().is_finite() {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, &balance, iteration);
-            let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
+            let step = self.newton_step(&given, rings, &u, (&balance, iteration), solvers);
+            let next = self.along(&given, (rings, step), &mut u, &balance, solvers).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 if balance.residual() <= balance.rounding {
                     // As near as roundings let it come: back to the paths of these rings.
-                    self.balance(&given, rings, &mut u);
+                    self.balance(&given, rings, &mut u, solvers);
                     break;
                 }
                 // A step that cannot be taken may end where a contact has no answer.
                 let tried = rings + step;
-                self.balance(&given, tried, &mut u);
-                self.check_contacts(&given, tried, &u)?;
+                self.balance(&given, tried, &mut u, solvers);
+                self.check_contacts(&given, tried, &u, solvers)?;
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
         }
-        self.check_contacts(&given, rings, &u)?;
-        self.check_elements(&given, rings, &mut u)?;
+        self.check_contacts(&given, rings, &u, solvers)?;
+        self.check_elements(&given, rings, &mut u, solvers)?;
         self.write(excitation, rings, &u, state);
         Ok(())
     }
@@ -117,7 +119,13 @@ impl Model {
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
         let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
         let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
-        self.touching_path(j, [cell, SMOOTH], self.element_angle(j, &now.cage), &now.frames)
+        self.touching_path(
+            j,
+            [cell, SMOOTH],
+            self.element_angle(j, &now.cage),
+            &now.frames,
+            &mut LoveSolvers::default(),
+        )
     }
 
     /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
@@ -132,8 +140,9 @@ impl Model {
         }
         let distance = self.outer_centre_radius - self.radial_clearance;
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
+        let solvers = &mut LoveSolvers::default();
         for _ in 0..20 {
-            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &now.frames).approach;
+            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &now.frames, solvers).approach;
             let step = near.value / near.by_path;
             (at.u, at.distance) = (at.u - step, at.distance + step);
             if step.abs() < 1e-15 {
@@ -150,13 +159,17 @@ impl Model {
         cells: [[u32; 2]; 2],
         guess: f64,
         now: &FramedKinematics,
+        solvers: &mut LoveSolvers,
     ) -> ElementAtRest {
         let at = self.element_motion(j, PathMotion::at_rest(guess), now).searched();
-        let element = |u: f64| {
-            let element = self.linearized_at(cells, &at.on_path(u, 0.0));
+        let touch = match cells[1] {
+            [SMOOTH, SMOOTH] => 0.0,
+            cells => self.touching_path(j, cells, at.angle, &at.frames, solvers),
+        };
+        let mut element = |u: f64| {
+            let element = self.linearized_at(cells, &at.on_path(u, 0.0), solvers);
             (self.radial_push(&element), element)
         };
-        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], at.angle, &at.frames) };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
             return ElementAtRest { path: touch, element: touching, nearer: None };
@@ -198,7 +211,13 @@ impl Model {
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
     /// there.
-    fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+    fn check_contacts(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &[f64],
+        solvers: &mut LoveSolvers,
+    ) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
         let clearance = self.clearance(now.films.as_ref());
         for (j, &u) in u.iter().enumerate() {
@@ -210,9 +229,9 @@ impl Model {
                 if at.cells == [SMOOTH; 2] {
                     continue;
                 }
-                let Err(cause) = self.near(side, &at, &now.frames) else { continue };
+                let Err(cause) = self.near(side, &at, &now.frames, solvers) else { continue };
                 // The search may have ended on the far side, where all is NaN.
-                let element = self.at_rest(j, cells, u - FURTHER, &now);
+                let element = self.at_rest(j, cells, u - FURTHER, &now, solvers);
                 let residual = self.radial_balance(&element).force;
                 if !(residual.abs() <= UNBALANCED * element.inner.force.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
@@ -225,14 +244,20 @@ impl Model {
 
     /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to. Of
     /// two paths between which a balance lies, takes the one at which less force is left.
-    fn check_elements(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Result<(), EquilibriumError> {
+    fn check_elements(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &mut [f64],
+        solvers: &mut LoveSolvers,
+    ) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
         for (j, path) in u.iter_mut().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let element = self.at_rest(j, cells, *path, &now);
+            let element = self.at_rest(j, cells, *path, &now, solvers);
             let RadialForce { force, slope } = self.radial_balance(&element);
             let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
-            let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now).nearer).flatten();
+            let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now, solvers).nearer).flatten();
             *path = nearer.unwrap_or(*path);
             let is_balanced = nearer.is_some() || force.abs() <= self.no_force_at(&element, slope);
             if !(is_balanced && path.abs() <= self.element_radius) {
@@ -243,7 +268,7 @@ impl Model {
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.
-    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
+    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64], solvers: &mut LoveSolvers) -> Balance {
         let Given { excitation, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
@@ -251,12 +276,13 @@ impl Model {
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
-                let found = self.in_balance(in_cells, u[j], &self.element_motion(j, PathMotion::at_rest(u[j]), &now));
+                let at = self.element_motion(j, PathMotion::at_rest(u[j]), &now);
+                let found = self.in_balance(in_cells, u[j], &at, solvers);
                 let [shaft, housing] = found.forces().on_rings();
                 force += stacked(shaft, housing);
                 ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
-                let found = self.balanced_element(j, in_cells, u[j], &now);
+                let found = self.balanced_element(j, in_cells, u[j], &now, solvers);
                 let element = &found.element;
                 let (inner, outer) = (element.inner.force, element.outer.force);
                 force += stacked(element.at.on_shaft(inner), element.at.on_housing(outer));
@@ -280,14 +306,21 @@ impl Model {
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
+    fn newton_step(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &[f64],
+        (balance, iteration): (&Balance, i32),
+        solvers: &mut LoveSolvers,
+    ) -> Rings {
         let now = given.with_rings(rings);
         // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
         // tangent is far too stiff.
         let jacobian = if iteration > DOUBLING {
-            self.ring_jacobian_at(u, given.cells, &now)
+            self.ring_jacobian_at(u, given.cells, &now, solvers)
         } else {
-            self.ring_jacobian_at(u, given.cells, &now.standing())
+            self.ring_jacobian_at(u, given.cells, &now.standing(), solvers)
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
@@ -315,17 +348,17 @@ impl Model {
     fn along(
         &self,
         given: &Given,
-        rings: Rings,
+        (rings, step): (Rings, Rings),
         u: &mut [f64],
         start: &Balance,
-        step: Rings,
+        solvers: &mut LoveSolvers,
     ) -> Option<(Rings, Balance)> {
         let push_0 = start.force.dot(&step);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut share = 1.0;
         for _ in 0..100 {
             let next = rings + step * share;
-            let balance = self.balance(given, next, u);
+            let balance = self.balance(given, next, u, solvers);
             let push = balance.force.dot(&step);
             if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
                 return Some((next, balance));

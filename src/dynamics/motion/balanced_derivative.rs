@@ -22,8 +22,7 @@ impl Model {
         forces: &mut Forces,
     ) {
         let Stage { excitation, cage, .. } = *stage;
-        self.begin(excitation);
-        self.update_uneven(excitation, cage, &mut forces.elements);
+        forces.cage_lead = self.update_uneven(cage, &mut forces.elements, &mut forces.lead_pieces);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
@@ -55,14 +54,15 @@ impl Model {
         }
         for i in 0..forces.searched.len() {
             let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
-            let e_r = self.direction(j, &now.cage);
-            let along = now.housing.velocity.dot(&e_r);
+            let lead = self.lead_with(j, &now.cage, &mut forces.lead_pieces);
+            let along = now.housing.velocity.dot(&self.direction_with(j, &now.cage, &lead));
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
-            let found = self.in_balance(cells, guess, &self.element_motion(j, PathMotion::at_rest(guess), &now));
+            let at = self.element_motion_with(j, &lead, PathMotion::at_rest(guess), &now);
+            let found = self.in_balance(cells, guess, &at, &mut forces.solvers);
             forces.defect_lookups +=
                 found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
-                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now)
+                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now, &mut forces.solvers)
             {
                 forces.unsolved = Some(unsolved);
             }

@@ -18,6 +18,8 @@ pub struct CageState {
     pub direction: Vector,
     /// Cage angle (rad), within one turn at the communication point.
     pub angle: f64,
+    /// Whole turns of the cage at the communication point, which are no part of the angle.
+    pub turns: i64,
     /// Cage speed (rad/s).
     pub speed: f64,
     /// Cage acceleration (rad/s²).
@@ -109,7 +111,7 @@ impl Default for RingState {
 impl CageState {
     /// A cage that stands still at an angle (rad).
     pub fn at_rest(angle: f64) -> Self {
-        Self { tau: 0.0, direction: direction(angle), angle, speed: 0.0, acceleration: 0.0 }
+        Self { tau: 0.0, direction: direction(angle), angle, turns: 0, speed: 0.0, acceleration: 0.0 }
     }
 }
 
@@ -154,6 +156,7 @@ impl Excitation {
             tau,
             direction: direction(angle),
             angle,
+            turns: self.cage_turns,
             speed: self.cage.rate_at(tau),
             acceleration: self.cage.0[2],
         }

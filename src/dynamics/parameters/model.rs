@@ -3,13 +3,14 @@
 use super::element_block::{ElementBlock, blocks};
 use super::excitation::{Excitation, Frame};
 use super::film::{Films, FilmsNow, OilFilms};
-use super::irregularity::{Irregularity, Lead};
+use super::irregularity::{Irregularity, Lead, LeadPieces};
 use super::kinematics::CageState;
 use super::layout::Layout;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::sensor_modes::SensorModes;
 use super::supports::Supports;
 use crate::contact::law::{CompliantContact, smooth_laws};
+use crate::contact::near_defect::LoveSolvers;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
 use crate::numerics::plane::{Vector, turned_by};
@@ -19,7 +20,7 @@ use crate::scene::{Damping, ElementInertia, Ring, Scene};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Parameters of the equations of motion.
+/// Parameters of the equations of motion. What an instant or a solution needs besides is with those who ask.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Number of elements Z.
@@ -71,6 +72,12 @@ pub struct Model {
     /// What differs from element to element, eight at a time.
     pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
 }
+
+/// It is parameters and nothing else, so that one serves all that runs in a process.
+const _: fn() = || {
+    fn shared<T: Send + Sync>() {}
+    shared::<Model>();
+};
 
 impl Model {
     /// Works the parameters out. `defects` are those of the inner and of the outer raceway, under the scene's contact
@@ -130,9 +137,9 @@ impl Model {
         Self::new(scene, [Frame::Shaft, Frame::Housing].map(|frame| Defects::new(frame, [])), Vec::new())
     }
 
-    /// Makes contacts near defects independent of what was computed before, rounding included.
-    pub fn forget_contacts(&self) {
-        self.all_defects().for_each(Defects::forget);
+    /// Where contacts of law `love` are solved, with the room that they need.
+    pub fn love_solvers(&self) -> LoveSolvers {
+        LoveSolvers::new(self.all_defects().flat_map(Defects::iter).map(|defect| &defect.surface))
     }
 
     /// The defects of all bodies.
@@ -198,14 +205,6 @@ impl Model {
         self.dampers.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this excitation begins.
-    #[inline(always)]
-    pub fn begin(&self, excitation: &Excitation) {
-        if let Some(uneven) = &self.irregularity {
-            uneven.begin(excitation.cage_turns);
-        }
-    }
-
     /// The oil films at `tau`; `None` of dry contacts.
     #[inline(always)]
     pub fn films_at(&self, excitation: &Excitation, tau: f64) -> Option<FilmsNow> {
@@ -230,28 +229,27 @@ impl Model {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
     }
 
+    /// The same for those who ask often, with `pieces` at hand.
+    #[inline]
+    pub(crate) fn lead_with(&self, j: usize, cage: &CageState, pieces: &mut LeadPieces) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element_with(j, cage, pieces))
+    }
+
     /// What the cage itself is ahead of one that turns evenly.
     pub fn cage_lead(&self, cage: &CageState) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
     }
 
     /// Angle of element `j` about the outer ring's centre (rad).
-    #[inline(always)]
+    #[inline]
     pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
-        let angle = cage.angle + self.element_offset(j);
-        match &self.irregularity {
-            None => angle,
-            Some(uneven) => angle + uneven.angle_of_element(j, *cage),
-        }
+        self.angle_with(j, cage, &self.lead(j, cage))
     }
 
-    /// Speed (rad/s) and acceleration (rad/s²) of element `j` about the outer ring's centre.
+    /// The same for a known lead.
     #[inline(always)]
-    pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
-        match &self.irregularity {
-            None => [cage.speed, cage.acceleration],
-            Some(uneven) => uneven.speed_of_element(j, *cage),
-        }
+    pub(in crate::dynamics) fn angle_with(&self, j: usize, cage: &CageState, lead: &Lead) -> f64 {
+        cage.angle + self.element_offset(j) + lead.angle
     }
 
     /// Angle (rad) by which elements spin while the cage turns by `cage` (rad) and the rings as they must for it, the
@@ -270,31 +268,37 @@ impl Model {
     }
 
     /// Radial direction of element `j`.
-    #[inline(always)]
+    #[inline]
     pub(in crate::dynamics) fn direction(&self, j: usize, cage: &CageState) -> Vector {
+        self.direction_with(j, cage, &self.lead(j, cage))
+    }
+
+    /// The same for a known lead.
+    #[inline(always)]
+    pub(in crate::dynamics) fn direction_with(&self, j: usize, cage: &CageState, lead: &Lead) -> Vector {
         let (sin, cos) = match &self.irregularity {
             None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
-            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), *cage),
+            Some(_) => sin_cos(self.element_offset(j) + lead.angle),
         };
         turned_by(cage.direction, sin, cos)
     }
 
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
-    /// an even one.
+    /// an even one. Gives the lead of the cage itself.
     #[inline(always)]
     pub(in crate::dynamics) fn update_uneven(
         &self,
-        excitation: &Excitation,
         cage: &CageState,
         elements: &mut [ElementBlock],
-    ) {
-        let Some(uneven) = &self.irregularity else { return };
-        uneven.begin(excitation.cage_turns);
-        uneven.update_all(cage, elements);
+        pieces: &mut LeadPieces,
+    ) -> Lead {
+        let Some(uneven) = &self.irregularity else { return Lead::default() };
+        let lead = uneven.update_all(cage, elements, pieces);
         for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
             for (i, &offset) in offsets.iter().enumerate() {
                 (block.sin[i], block.cos[i]) = sin_cos(offset + block.lead[i]);
             }
         }
+        lead
     }
 }

@@ -9,7 +9,6 @@ use crate::scene::Motion;
 impl Model {
     /// Cage and rings at `tau`.
     pub fn kinematics(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> FramedKinematics {
-        self.begin(excitation);
         let motion = self.kinematics_of(&Stage { excitation, cage: &excitation.cage_at(tau), state, ahead: None });
         FramedKinematics { motion, frames: excitation.frames_at(tau), films: self.films_at(excitation, tau) }
     }

@@ -78,7 +78,7 @@ impl Simulation {
         }
         self.refresh()?;
         let excitation = self.excitation(true);
-        self.model.forget_contacts();
+        self.forces.solvers.forget();
         let progress = &self.state.progress;
         self.model.derivative(
             &excitation,
@@ -139,7 +139,7 @@ impl Simulation {
             }
         }
         self.refresh()?;
-        self.model.forget_contacts();
+        self.forces.solvers.forget();
         self.along_inputs(knowns, seed);
         if !self.state.started {
             let excitation = self.excitation(false);
@@ -150,6 +150,7 @@ impl Simulation {
                 &progress.state,
                 loads,
                 &mut self.change.variation,
+                &mut self.forces.solvers,
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
@@ -303,7 +304,7 @@ impl Simulation {
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
         let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
-        self.model.vary(&excitation, cells, state, acceleration, variation, forces);
+        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.solvers);
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
@@ -340,15 +341,14 @@ impl Simulation {
             } else {
                 state
             };
-            change.stiffness = self.model.vary_stiffness(&excitation, cells, state, &change.variation);
+            change.stiffness =
+                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.solvers);
         }
     }
 
     /// The nominal cage at the communication point.
     fn cage_now(&self) -> CageState {
-        let excitation = self.excitation(false);
-        self.model.begin(&excitation);
-        excitation.cage_at(0.0)
+        self.excitation(false).cage_at(0.0)
     }
 
     /// Change of the cage's own angle and speed.

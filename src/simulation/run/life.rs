@@ -356,7 +356,7 @@ impl Simulation {
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
-        self.model.forget_contacts();
+        self.forces.solvers.forget();
         self.model.derivative(
             &excitation,
             0.0,
@@ -378,6 +378,9 @@ impl Simulation {
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
         self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
+        for forces in [&mut self.forces, &mut self.workspace.forces] {
+            forces.solvers = self.model.love_solvers();
+        }
         self.up_to_date = UpToDate::Model;
         Ok(())
     }

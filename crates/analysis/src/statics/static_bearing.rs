@@ -229,7 +229,8 @@ impl StaticBearing {
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;
         let paths = &state[..model.element_count];
-        let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state));
+        let jacobian =
+            model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state), &mut forces.solvers);
         let cage = CageState::at_rest(cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(model.element_angle(j, &cage)),
