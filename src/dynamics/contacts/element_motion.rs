@@ -143,7 +143,7 @@ impl Model {
         on_path: PathMotion,
         now: &FramedKinematics,
     ) -> ElementMotion {
-        self.element_motion_with(j, &self.lead(j, &now.cage), on_path, now)
+        self.element_motion_with(j, &self.lead(j, now.cage_angle()), on_path, now)
     }
 
     /// The same for a known lead.
@@ -160,7 +160,7 @@ impl Model {
             element: j,
             e_r,
             e_t: turned(e_r),
-            angle: self.angle_with(j, &now.cage, lead),
+            angle: now.cage.angle + self.element_offset(j) + lead.angle,
             omega,
             alpha,
             path,

@@ -3,7 +3,7 @@
 use super::kernel::{InnerGap, Meeting};
 use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{CageState, Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
+use crate::dynamics::parameters::{Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
@@ -22,15 +22,9 @@ impl Model {
         self.inner_gap(u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()
     }
 
-    /// Element `j` at path `u` where it meets the outer raceway.
-    #[inline]
-    pub(in crate::dynamics) fn outer_meeting(&self, j: usize, cells: [u32; 2], u: f64, cage: &CageState) -> Meeting {
-        self.outer_meeting_at(self.element_angle(j, cage), j, cells, u)
-    }
-
-    /// As [`Self::outer_meeting`], for an element at this `angle` (rad).
+    /// Element `j` at this `angle` (rad) and path `u` where it meets the outer raceway.
     #[inline(always)]
-    pub(super) fn outer_meeting_at(&self, angle: f64, j: usize, cells: [u32; 2], u: f64) -> Meeting {
+    pub(in crate::dynamics) fn outer_meeting(&self, angle: f64, j: usize, cells: [u32; 2], u: f64) -> Meeting {
         Meeting { element: j, cells, u, direction: angle, distance: self.outer_centre_radius + u, curved: true }
     }
 
@@ -66,8 +60,8 @@ impl Model {
         let (now, mut cells) =
             (self.kinematics(excitation, tau, state), Cells::smooth(self.element_count, self.defective.len()));
         for j in 0..self.element_count {
-            let lead = self.lead(j, &now.cage);
-            let theta = self.angle_with(j, &now.cage, &lead);
+            let lead = self.lead(j, now.cage_angle());
+            let theta = now.cage.angle + self.element_offset(j) + lead.angle;
             let directions = [theta + self.inner_lead(j, state[j], &now, &lead), theta];
             let cell =
                 |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
@@ -91,7 +85,7 @@ impl Model {
     ) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
-            let meeting = self.outer_meeting_at(angle, j, cells, u);
+            let meeting = self.outer_meeting(angle, j, cells, u);
             let near = self.near_or_unsolved(RacewaySide::Outer, &meeting, frames, solvers).approach;
             let step = near.value / near.by_path;
             u -= step;

@@ -35,7 +35,7 @@ impl Model {
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             let [angle, speed] = self.turning(j, now, sum.elements);
-            let meeting = self.outer_meeting_at(angle, j, cells, u);
+            let meeting = self.outer_meeting(angle, j, cells, u);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             if cells == [SMOOTH; 2] {
                 let near = Near::smooth(u);

@@ -11,7 +11,7 @@
 use crate::contact::near_defect::LoveSolvers;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
 use crate::dynamics::parameters::{
-    CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
+    Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::dual::Dual;
@@ -112,9 +112,9 @@ pub(in crate::dynamics) struct Going {
 
 impl Model {
     /// How element `j` goes round as the nominal cage's angle and speed change.
-    pub(in crate::dynamics) fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
-        let Lead { rate, second, third, .. } = self.lead(j, cage);
-        let (omega, share) = (cage.speed, 1.0 + rate);
+    pub(in crate::dynamics) fn going(&self, j: usize, now: &FramedKinematics, by: &Variation) -> Going {
+        let Lead { rate, second, third, .. } = self.lead(j, now.cage_angle());
+        let (cage, omega, share) = (&now.cage, now.cage.speed, 1.0 + rate);
         Going {
             turn: share * by.cage_angle,
             speed: share * by.cage_speed + second * omega * by.cage_angle,
@@ -133,7 +133,7 @@ impl Model {
     ) -> ElementMotion<Changing> {
         let w = state[self.layout.radial_velocity + j];
         let at = self.element_motion(j, PathMotion { path: state[j], rate: 0.0 }, now);
-        let Going { turn, speed, alpha } = self.going(j, &now.cage, by);
+        let Going { turn, speed, alpha } = self.going(j, now, by);
         let frames = [0, 1, 2].map(|i| {
             let (Turn { angle, speed }, [d_angle, d_speed]) = (at.frames.0[i], by.frames[i]);
             Turn { angle: changing(angle, d_angle), speed: changing(speed, d_speed) }

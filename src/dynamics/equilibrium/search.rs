@@ -21,13 +21,9 @@
 pub use super::error::EquilibriumError;
 use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Linearized;
-use crate::dynamics::contacts::Meeting;
-use crate::dynamics::parameters::{
-    Cells, Excitation, Frame, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
-};
-use crate::dynamics::quasi_static::RadialForce;
-use crate::dynamics::quasi_static::{PathSearch, Rings, stacked};
+use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting};
+use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
+use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
@@ -114,44 +110,6 @@ impl Model {
         Ok(cells)
     }
 
-    /// The path (m) of element `j` (from 0) where it rests against the outer raceway without force, with element 1 at
-    /// `cage_angle` (rad) and all else as at the start.
-    pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
-        let now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        let cell = self.outer.defects.cell_at(self.element_angle(j, &now.cage));
-        self.touching_path(
-            j,
-            [cell, SMOOTH],
-            self.element_angle(j, &now.cage),
-            &now.frames,
-            &mut LoveSolvers::default(),
-        )
-    }
-
-    /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
-    /// defect of that, with element 1 at `cage_angle` and the inner ring at `shaft_angle` (rad), rings concentric.
-    pub fn resting_opening(&self, j: usize, cage_angle: f64, shaft_angle: f64) -> f64 {
-        let mut now = FramedKinematics::at_rest(cage_angle, Vector::zeros());
-        now.frames.0[Frame::Shaft as usize].angle = shaft_angle;
-        let direction = self.element_angle(j, &now.cage);
-        let cell = self.inner.defects.cell_at(direction - shaft_angle);
-        if cell == SMOOTH {
-            return 0.0;
-        }
-        let distance = self.outer_centre_radius - self.radial_clearance;
-        let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
-        let solvers = &mut LoveSolvers::default();
-        for _ in 0..20 {
-            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &now.frames, solvers).approach;
-            let step = near.value / near.by_path;
-            (at.u, at.distance) = (at.u - step, at.distance + step);
-            if step.abs() < 1e-15 {
-                break;
-            }
-        }
-        at.u
-    }
-
     /// Element `j` in radial balance, looked for from path `guess` on.
     pub(super) fn balanced_element(
         &self,
@@ -219,12 +177,12 @@ impl Model {
         solvers: &mut LoveSolvers,
     ) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
-        let clearance = self.clearance(now.films.as_ref());
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage), clearance);
-            let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
-            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
+            let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(u), &now);
+            let gap = self.inner_gap(u - FURTHER, now.offset(), e_r, self.clearance(now.films.as_ref()));
+            let inner = self.inner_meeting(j, cells[0], &gap, angle);
+            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(angle, j, cells[1], u) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
                 if at.cells == [SMOOTH; 2] {
                     continue;
@@ -382,13 +340,13 @@ impl Model {
             }
         }
         // At rest against the outer ring: u' = 0.
-        let Kinematics { cage, housing, .. } = self.kinematics(excitation, 0.0, state).motion;
+        let now = self.kinematics(excitation, 0.0, state);
         for j in 0..self.element_count {
-            state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
+            state[w + j] = now.housing.velocity.dot(&self.direction(j, &now));
         }
         for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_indices()) {
             let e = sensor.direction;
-            (state[i], state[i + 1]) = (housing.position.dot(&e), housing.velocity.dot(&e));
+            (state[i], state[i + 1]) = (now.housing.position.dot(&e), now.housing.velocity.dot(&e));
         }
     }
 }

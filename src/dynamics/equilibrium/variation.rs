@@ -40,7 +40,7 @@ impl Model {
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
         // In an uneven cage each element goes round at its own speed.
         let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
-            speed: self.going(j, &now.cage, by).speed,
+            speed: self.going(j, &now, by).speed,
             ..given
         };
         for j in 0..self.element_count {

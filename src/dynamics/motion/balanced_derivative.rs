@@ -22,7 +22,8 @@ impl Model {
         forces: &mut Forces,
     ) {
         let Stage { excitation, cage, .. } = *stage;
-        forces.cage_lead = self.update_uneven(cage, &mut forces.elements, &mut forces.lead_pieces);
+        let angle = excitation.cage_angle_of(cage);
+        forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.lead_pieces);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
@@ -47,14 +48,15 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
-        let now = FramedKinematics { motion: *now, frames: forces.frames, films: None };
+        let now =
+            FramedKinematics { motion: *now, turns: stage.excitation.cage_turns, frames: forces.frames, films: None };
         let mut rings = [Vector::zeros(); 2];
         if RECORD {
             forces.torques = [0.0; 3];
         }
         for i in 0..forces.searched.len() {
             let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
-            let lead = self.lead_with(j, &now.cage, &mut forces.lead_pieces);
+            let lead = self.lead_with(j, now.cage_angle(), &mut forces.lead_pieces);
             let along = now.housing.velocity.dot(&self.direction_with(j, &now.cage, &lead));
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
             let at = self.element_motion_with(j, &lead, PathMotion::at_rest(guess), &now);

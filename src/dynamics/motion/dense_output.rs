@@ -49,13 +49,13 @@ impl Model {
         for j in 0..self.element_count {
             let second = [0, 1].map(|k| {
                 let cage = &ends[k].cage;
-                let lead = self.lead_with(j, cage, pieces);
+                let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
                 let (e_r, [speed, _]) = (self.direction_with(j, cage, &lead), lead.speed(cage));
                 ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
             });
             let (path, path_rate) = basis.at(value(j), rate(j), second);
             out[j] = path;
-            let lead = self.lead_with(j, cage, pieces);
+            let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
             out[w + j] = path_rate + self.direction_with(j, cage, &lead).dot(&velocity);
         }
     }

@@ -69,7 +69,8 @@ impl Model {
     ) {
         let Stage { excitation, cage, state, ahead } = *stage;
         if UNEVEN_OR_OILED {
-            forces.cage_lead = self.update_uneven(cage, &mut forces.elements, &mut forces.lead_pieces);
+            let angle = excitation.cage_angle_of(cage);
+            forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.lead_pieces);
             if let Some(films) = &self.films {
                 films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
             }

@@ -14,6 +14,7 @@
 //! what integration leaves, so steps do not end there.
 
 use super::element_block::ElementBlock;
+use super::excitation::WholeAngle;
 use super::kinematics::CageState;
 use crate::numerics::counter_noise::gaussian;
 use crate::numerics::lanes::WIDEST;
@@ -150,11 +151,11 @@ impl Irregularity {
         Some(uneven)
     }
 
-    /// Lead of element `j` at an instant of the nominal cage.
+    /// Lead of element `j` at an angle of the nominal cage.
     ///
     /// Out of the way of even cages, as all that asks for it is.
     #[cold]
-    pub fn of_element(&self, j: usize, cage: &CageState) -> Lead {
+    pub fn of_element(&self, j: usize, cage: WholeAngle) -> Lead {
         let common = self.of_cage(cage);
         if self.jitter == 0.0 {
             return common;
@@ -165,7 +166,7 @@ impl Irregularity {
 
     /// The same with `pieces` at hand.
     #[cold]
-    pub(super) fn of_element_with(&self, j: usize, cage: &CageState, pieces: &mut LeadPieces) -> Lead {
+    pub(super) fn of_element_with(&self, j: usize, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
         let common = self.of_cage_with(cage, pieces);
         if self.jitter == 0.0 {
             return common;
@@ -174,10 +175,10 @@ impl Irregularity {
         common + evaluated(&pieces.of_elements[j], share, self.count as f64 / TAU)
     }
 
-    /// Puts what all elements are ahead at an instant of the nominal cage, and how fast they go, into `elements`; gives
+    /// Puts what all elements are ahead at an angle of the nominal cage, and how fast they go, into `elements`; gives
     /// the lead of the cage itself.
     #[inline(always)]
-    pub(super) fn update_all(&self, cage: &CageState, elements: &mut [ElementBlock], pieces: &mut LeadPieces) -> Lead {
+    pub(super) fn update_all(&self, cage: WholeAngle, elements: &mut [ElementBlock], pieces: &mut LeadPieces) -> Lead {
         let common = self.of_cage_with(cage, pieces);
         if self.jitter == 0.0 {
             for block in elements {
@@ -198,7 +199,7 @@ impl Irregularity {
 
     /// Makes `pieces` those of all elements' jitter at an instant; gives the share of their interval that is behind.
     #[inline(always)]
-    fn jitters(&self, cage: &CageState, pieces: &mut LeadPieces) -> f64 {
+    fn jitters(&self, cage: WholeAngle, pieces: &mut LeadPieces) -> f64 {
         let KnotPosition { interval, share } = self.knot_position(cage, self.count as f64);
         let key = PieceKey { seed: self.seed, deviation: self.jitter, interval };
         if pieces.jitter != Some(key) {
@@ -218,13 +219,13 @@ impl Irregularity {
     }
 
     /// Lead of the cage itself: that of all elements together. It is 0 at the start.
-    pub fn of_cage(&self, cage: &CageState) -> Lead {
+    pub fn of_cage(&self, cage: WholeAngle) -> Lead {
         self.of_cage_by(cage, |interval| self.wander_piece(interval))
     }
 
     /// The same with `pieces` at hand.
     #[inline(always)]
-    fn of_cage_with(&self, cage: &CageState, pieces: &mut LeadPieces) -> Lead {
+    fn of_cage_with(&self, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
         self.of_cage_by(cage, |interval| {
             let key = PieceKey { seed: self.seed, deviation: self.wander, interval };
             if pieces.wander != Some(key) {
@@ -235,7 +236,7 @@ impl Irregularity {
     }
 
     #[inline(always)]
-    fn of_cage_by(&self, cage: &CageState, piece: impl FnOnce(i64) -> [f64; 4]) -> Lead {
+    fn of_cage_by(&self, cage: WholeAngle, piece: impl FnOnce(i64) -> [f64; 4]) -> Lead {
         if self.wander == 0.0 {
             return Lead::default();
         }
@@ -253,11 +254,11 @@ impl Irregularity {
 
     /// Where the cage is among knots of which there are `per_turn` in a turn.
     #[inline(always)]
-    fn knot_position(&self, cage: &CageState, per_turn: f64) -> KnotPosition {
+    fn knot_position(&self, cage: WholeAngle, per_turn: f64) -> KnotPosition {
         // Whole turns first, so that no digits are lost to them.
         let turns = cage.turns as f64 * per_turn;
         let (whole, rest) = (turns.floor(), turns - turns.floor());
-        let at = rest + (cage.angle - self.start) / TAU * per_turn;
+        let at = rest + (cage.rest - self.start) / TAU * per_turn;
         KnotPosition { interval: whole as i64 + at.floor() as i64, share: at - at.floor() }
     }
 
@@ -291,8 +292,8 @@ mod tests {
         Irregularity::new(&cage, 9, -1.2).unwrap()
     }
 
-    fn at(turns: i64, angle: f64) -> CageState {
-        CageState { turns, ..CageState::at_rest(angle) }
+    fn at(turns: i64, angle: f64) -> WholeAngle {
+        WholeAngle { turns, rest: angle }
     }
 
     #[test]
@@ -301,7 +302,7 @@ mod tests {
         for k in 0..4000 {
             let (angle, step) = (f64::from(k) * 0.0137 - 20.0, 1e-5);
             for j in [0, 8] {
-                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, &at(0, angle + by)));
+                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, at(0, angle + by)));
                 for (values, slope, size) in
                     [([before.angle, after.angle], here.rate, 1.0), ([before.rate, after.rate], here.second, 10.0)]
                 {
@@ -309,8 +310,8 @@ mod tests {
                     let quotient = (values[1] - values[0]) / (2.0 * step);
                     assert!((quotient - slope).abs() < 1e-5 * size, "{angle} {quotient} {slope}");
                 }
-                if (of.knot_position(&at(0, angle), 9.0).share - 0.5).abs() < 0.4
-                    && (of.knot_position(&at(0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
+                if (of.knot_position(at(0, angle), 9.0).share - 0.5).abs() < 0.4
+                    && (of.knot_position(at(0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
                 {
                     let quotient = (after.second - before.second) / (2.0 * step);
                     assert!((quotient - here.third).abs() < 1e-5, "{angle} {quotient} {}", here.third);
@@ -324,11 +325,11 @@ mod tests {
         let of = irregular(0.01, 0.02, 3);
         for turns in [-400, -1, 0, 1, 2, 1000] {
             for angle in [-3.0, 0.1, 2.9, 7.0] {
-                let (one, other) = (of.of_element(4, &at(turns, angle)), of.of_element(4, &at(turns - 1, angle + TAU)));
+                let (one, other) = (of.of_element(4, at(turns, angle)), of.of_element(4, at(turns - 1, angle + TAU)));
                 assert!((one.angle - other.angle).abs() < 1e-13 && (one.rate - other.rate).abs() < 1e-13);
             }
         }
-        assert_eq!(of.of_cage(&at(0, -1.2)).angle, 0.0);
+        assert_eq!(of.of_cage(at(0, -1.2)).angle, 0.0);
     }
 
     #[test]
@@ -338,7 +339,7 @@ mod tests {
         for harmonic in [1, 3, 6] {
             let count = 60_000;
             let phase =
-                |k: i32| f64::from(9 * harmonic) * of.of_element(0, &at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
+                |k: i32| f64::from(9 * harmonic) * of.of_element(0, at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
             let mean = (0..count).map(|k| phase(k).cos()).sum::<f64>() / f64::from(count);
             // Passages are a spacing apart, where a spline has its knots and half its coefficients' mean square.
             let at_knots = 0.5 / MEAN_SQUARE;
@@ -356,12 +357,12 @@ mod tests {
         let own = irregular(jitter, 0.0, 11);
         for k in 0..count {
             let angle = f64::from(k) * 0.35;
-            let lead = |j: usize, angle: f64| own.of_element(j, &at(0, angle)).angle;
+            let lead = |j: usize, angle: f64| own.of_element(j, at(0, angle)).angle;
             let here = lead(2, angle);
             squares += here * here;
             neighbours += here * lead(2, angle + TAU / 9.0);
             between += here * lead(3, angle);
-            rates += of.of_cage(&at(0, angle)).rate.powi(2);
+            rates += of.of_cage(at(0, angle)).rate.powi(2);
         }
         let mean = |sum: f64| sum / f64::from(count);
         // About 20 000 independent coefficients: 1 % of a mean square; 740 of the wander's: 5 %.

@@ -1,10 +1,10 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
 use super::element_block::{ElementBlock, blocks};
-use super::excitation::{Excitation, Frame};
+use super::excitation::{Excitation, Frame, WholeAngle};
 use super::film::{Films, FilmsNow, OilFilms};
 use super::irregularity::{Irregularity, Lead, LeadPieces};
-use super::kinematics::CageState;
+use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::sensor_modes::SensorModes;
@@ -223,33 +223,27 @@ impl Model {
         films.map_or(clearance, |films| clearance - films.together)
     }
 
-    /// What element `j` is ahead of its position in a cage that turns evenly.
+    /// What element `j` is ahead of its position in a cage that turns evenly and is at this angle.
     #[inline]
-    pub fn lead(&self, j: usize, cage: &CageState) -> Lead {
+    pub fn lead(&self, j: usize, cage: WholeAngle) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
     }
 
     /// The same for those who ask often, with `pieces` at hand.
     #[inline]
-    pub(crate) fn lead_with(&self, j: usize, cage: &CageState, pieces: &mut LeadPieces) -> Lead {
+    pub(crate) fn lead_with(&self, j: usize, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element_with(j, cage, pieces))
     }
 
     /// What the cage itself is ahead of one that turns evenly.
-    pub fn cage_lead(&self, cage: &CageState) -> Lead {
+    pub fn cage_lead(&self, cage: WholeAngle) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
     }
 
-    /// Angle of element `j` about the outer ring's centre (rad).
+    /// Angle of element `j` about the outer ring's centre (rad), the cage's whole turns left out.
     #[inline]
-    pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
-        self.angle_with(j, cage, &self.lead(j, cage))
-    }
-
-    /// The same for a known lead.
-    #[inline(always)]
-    pub(in crate::dynamics) fn angle_with(&self, j: usize, cage: &CageState, lead: &Lead) -> f64 {
-        cage.angle + self.element_offset(j) + lead.angle
+    pub fn element_angle(&self, j: usize, cage: WholeAngle) -> f64 {
+        cage.rest + self.element_offset(j) + self.lead(j, cage).angle
     }
 
     /// Angle (rad) by which elements spin while the cage turns by `cage` (rad) and the rings as they must for it, the
@@ -269,8 +263,8 @@ impl Model {
 
     /// Radial direction of element `j`.
     #[inline]
-    pub(in crate::dynamics) fn direction(&self, j: usize, cage: &CageState) -> Vector {
-        self.direction_with(j, cage, &self.lead(j, cage))
+    pub(in crate::dynamics) fn direction(&self, j: usize, now: &FramedKinematics) -> Vector {
+        self.direction_with(j, &now.cage, &self.lead(j, now.cage_angle()))
     }
 
     /// The same for a known lead.
@@ -288,7 +282,7 @@ impl Model {
     #[inline(always)]
     pub(in crate::dynamics) fn update_uneven(
         &self,
-        cage: &CageState,
+        cage: WholeAngle,
         elements: &mut [ElementBlock],
         pieces: &mut LeadPieces,
     ) -> Lead {

@@ -29,7 +29,7 @@ use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
-use crate::dynamics::parameters::{FramedKinematics, Model, SMOOTH};
+use crate::dynamics::parameters::{FramedKinematics, Model, PathMotion, SMOOTH};
 use crate::numerics::plane::Vector;
 use crate::numerics::scalar::Scalar;
 
@@ -205,9 +205,10 @@ impl Model {
         now: &FramedKinematics,
         solvers: &mut LoveSolvers,
     ) -> Option<UnsolvedContact> {
-        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage), self.clearance(now.films.as_ref()));
-        let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
-        let outer = self.outer_meeting(j, cells[1], path, &now.cage);
+        let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(path), now);
+        let gap = self.inner_gap(path, now.offset(), e_r, self.clearance(now.films.as_ref()));
+        let inner = self.inner_meeting(j, cells[0], &gap, angle);
+        let outer = self.outer_meeting(angle, j, cells[1], path);
         // A search ends on the near side of where there is no answer.
         let beyond = |at: Meeting| Meeting { u: at.u + SETTLED, ..at };
         [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)]

@@ -18,7 +18,7 @@
 use super::life::UpToDate;
 use super::values::{as_many, out_of_range};
 use crate::contact::law::Elasticity;
-use crate::dynamics::parameters::{CageState, Excitation, Frame, Kinematics, Lead};
+use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
@@ -346,23 +346,18 @@ impl Simulation {
         }
     }
 
-    /// The nominal cage at the communication point.
-    fn cage_now(&self) -> CageState {
-        self.excitation(false).cage_at(0.0)
-    }
-
     /// Change of the cage's own angle and speed.
     fn cage_change(&self) -> [f64; 2] {
-        let (cage, variation) = (self.cage_now(), &self.change.variation);
-        let Lead { rate, second, .. } = self.model.cage_lead(&cage);
-        let share = 1.0 + rate;
-        let speed = share * variation.cage_speed + second * cage.speed * variation.cage_angle;
+        let variation = &self.change.variation;
+        let Lead { rate, second, .. } = self.model.cage_lead(self.state.cage);
+        let (share, cage_speed) = (1.0 + rate, self.excitation(false).cage.0[1]);
+        let speed = share * variation.cage_speed + second * cage_speed * variation.cage_angle;
         [share * variation.cage_angle, speed]
     }
 
     /// Change of the angle of element `j`.
     fn element_turn(&self, j: usize) -> f64 {
-        (1.0 + self.model.lead(j, &self.cage_now()).rate) * self.change.variation.cage_angle
+        (1.0 + self.model.lead(j, self.state.cage).rate) * self.change.variation.cage_angle
     }
 
     /// What the change makes of one output.

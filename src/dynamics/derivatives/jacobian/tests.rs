@@ -128,9 +128,9 @@ pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<
         state[i + 1] -= 20e-6;
     }
     for j in 0..z {
-        let cage = excitation.cage_at(0.0);
-        let outer = model.outer.defects.cell_at(model.element_angle(j, &cage));
-        let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, &cage);
+        let angle = model.element_angle(j, excitation.cage_angle_of(&excitation.cage_at(0.0)));
+        let outer = model.outer.defects.cell_at(angle);
+        let at = model.outer_meeting(angle, j, [outer, SMOOTH], 0.0);
         let frames = excitation.frames_at(0.0);
         let floor =
             -model.near_or_unsolved(RacewaySide::Outer, &at, &frames, &mut LoveSolvers::default()).approach.value;

@@ -219,7 +219,7 @@ fn registers_of_every_width_give_the_same_bits() {
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.update_uneven(&cage, &mut forces.elements, &mut forces.lead_pieces);
+            model.update_uneven(excitation.cage_angle_of(&cage), &mut forces.elements, &mut forces.lead_pieces);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

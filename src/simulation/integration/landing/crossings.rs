@@ -160,7 +160,7 @@ impl Instant<'_> {
     /// and in an uneven cage.
     fn lead(&self, problem: Problem, at: &Watched, pieces: &mut LeadPieces) -> f64 {
         let (model, j) = (problem.model, at.element);
-        let of_cage = model.lead_with(j, &self.now.cage, pieces);
+        let of_cage = model.lead_with(j, self.now.cage_angle(), pieces);
         match at.contact {
             Contact::Inner(_) | Contact::Own(_, 0) => {
                 model.inner_lead(j, self.paths[j], &self.now, &of_cage) + of_cage.angle
