@@ -103,6 +103,8 @@ impl NearLove {
         Self { contact: Arc::new(contact), bearer_radius, knots, flats }
     }
 
+    /// A function of its own, so that nothing of it is in the way of other laws.
+    #[inline(never)]
     fn solve(
         &self,
         cell: usize,
@@ -115,6 +117,7 @@ impl NearLove {
         }
     }
 
+    #[inline(never)]
     fn second_derivatives(
         &self,
         cell: usize,

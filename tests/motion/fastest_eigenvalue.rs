@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
-use brinell::contact::near_defect::LoveSolvers;
+use brinell::dynamics::contacts::Shortcuts;
 use brinell::dynamics::derivatives::{Fastest, Jacobian};
 use brinell::dynamics::parameters::{Excitation, Model, Quadratic};
 use brinell::scene::{Damping, Motion, Scene, Sensor};
@@ -102,7 +102,7 @@ fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
     }
     let cells = model.cells_at(&excitation, 0.0, &vec![0.0; model.layout.len]);
     let mut jacobian = Jacobian::new(&model);
-    model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut LoveSolvers::default());
+    model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
     (model, jacobian)
 }
 

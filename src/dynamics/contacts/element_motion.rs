@@ -1,7 +1,8 @@
 //! What one element meets at an instant: where it is, how it moves, and how all that it touches does. In numbers of any
 //! kind, so that a change of any of it is followed through the contacts by the one text there is of them.
 
-use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Lead, Model, OilFilms, PathMotion, Turn};
+use super::shortcuts::Shortcuts;
+use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, OilFilms, PathMotion, Turn};
 use crate::numerics::plane::{Vector, turned};
 use crate::numerics::scalar::Scalar;
 
@@ -140,22 +141,12 @@ impl Model {
     pub(in crate::dynamics) fn element_motion(
         &self,
         j: usize,
-        on_path: PathMotion,
-        now: &FramedKinematics,
-    ) -> ElementMotion {
-        self.element_motion_with(j, &self.lead(j, now.cage_angle()), on_path, now)
-    }
-
-    /// The same for a known lead.
-    #[inline]
-    pub(in crate::dynamics) fn element_motion_with(
-        &self,
-        j: usize,
-        lead: &Lead,
         PathMotion { path, rate: path_rate }: PathMotion,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> ElementMotion {
-        let (e_r, [omega, alpha]) = (self.direction_with(j, &now.cage, lead), lead.speed(&now.cage));
+        let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
+        let (e_r, [omega, alpha]) = (self.direction_with(j, &now.cage, &lead), lead.speed(&now.cage));
         ElementMotion {
             element: j,
             e_r,

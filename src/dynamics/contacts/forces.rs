@@ -1,10 +1,10 @@
 //! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
 use super::contact_lanes::Record;
+use super::shortcuts::Shortcuts;
 use crate::contact::error::ContactError;
-use crate::contact::near_defect::LoveSolvers;
 use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Lead, LeadPieces, Model, SMOOTH};
+use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Lead, Model, SMOOTH};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
@@ -18,8 +18,6 @@ pub struct Forces {
     pub(in crate::dynamics) elements: Vec<ElementBlock>,
     /// What an uneven cage itself is ahead.
     pub(crate) cage_lead: Lead,
-    /// Polynomials of an uneven cage.
-    pub(crate) lead_pieces: LeadPieces,
     /// Outer contacts that are not those of the smooth rigid raceway.
     pub(in crate::dynamics) non_smooth_outer: Vec<NonSmooth>,
     /// Inner contacts near defects.
@@ -39,8 +37,8 @@ pub struct Forces {
     /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(in crate::dynamics) torques: [f64; 3],
-    /// Where contacts of law `love` are solved.
-    pub solvers: LoveSolvers,
+    /// Shortcuts.
+    pub shortcuts: Shortcuts,
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
     /// The last contact near a defect that could not be computed, of an element whose position is a number.
@@ -66,8 +64,7 @@ impl Clone for Forces {
         Self {
             contacts: self.contacts.clone(),
             elements: self.elements.clone(),
-            lead_pieces: self.lead_pieces.clone(),
-            solvers: self.solvers.clone(),
+            shortcuts: self.shortcuts.clone(),
             unsolved: self.unsolved.clone(),
             non_smooth_outer: with_its_room(&self.non_smooth_outer),
             non_smooth_inner: with_its_room(&self.non_smooth_inner),
@@ -87,7 +84,7 @@ fn with_its_room<T: Copy>(list: &Vec<T>) -> Vec<T> {
 impl Forces {
     /// Room for the contacts of a model, which is less where it has no defect inside.
     pub fn of(model: &Model) -> Self {
-        let mut forces = Self { solvers: model.love_solvers(), ..Self::new(model.element_count) };
+        let mut forces = Self { shortcuts: Shortcuts::of(model), ..Self::new(model.element_count) };
         if !model.may_have_inner_defects {
             (forces.non_smooth_inner, forces.non_smooth_contacts[0]) = (Vec::new(), Vec::new());
         }
@@ -105,7 +102,6 @@ impl Forces {
             count,
             contacts: Record::new(slots),
             elements: vec![ElementBlock::default(); slots / WIDEST],
-            lead_pieces: LeadPieces::new(count),
             non_smooth_outer: Vec::with_capacity(count),
             non_smooth_inner: Vec::with_capacity(count),
             non_smooth_contacts: [(); 2].map(|()| Vec::with_capacity(count)),

@@ -1,7 +1,7 @@
 //! Where elements meet the two raceways, and in which cells of their defects.
 
 use super::kernel::{InnerGap, Meeting};
-use crate::contact::near_defect::LoveSolvers;
+use super::shortcuts::Shortcuts;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
 use crate::numerics::plane::{Vector, turned};
@@ -81,12 +81,12 @@ impl Model {
         cells: [u32; 2],
         angle: f64,
         frames: &Frames,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> f64 {
         let mut u = 0.0;
         for _ in 0..20 {
             let meeting = self.outer_meeting(angle, j, cells, u);
-            let near = self.near_or_unsolved(RacewaySide::Outer, &meeting, frames, solvers).approach;
+            let near = self.near_or_unsolved(RacewaySide::Outer, &meeting, frames, shortcuts).approach;
             let step = near.value / near.by_path;
             u -= step;
             if step.abs() < 1e-15 {

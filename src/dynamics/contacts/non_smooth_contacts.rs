@@ -25,8 +25,8 @@ impl Model {
     ) -> Vector {
         let Forces { non_smooth_outer, non_smooth_contacts: [_, contacts], elements, torques, .. } = forces;
         let (frames, films) = (&forces.frames, forces.films.as_ref());
-        let (defect_lookups, unsolved, solvers) =
-            (&mut forces.defect_lookups, &mut forces.unsolved, &mut forces.solvers);
+        let (defect_lookups, unsolved, shortcuts) =
+            (&mut forces.defect_lookups, &mut forces.unsolved, &mut forces.shortcuts);
         if RECORD {
             contacts.clear();
         }
@@ -43,7 +43,7 @@ impl Model {
                 sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
             } else {
                 *defect_lookups += 1;
-                let near = self.near(RacewaySide::Outer, &meeting, frames, solvers).unwrap_or_else(|cause| {
+                let near = self.near(RacewaySide::Outer, &meeting, frames, shortcuts).unwrap_or_else(|cause| {
                     self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                 });
                 let found = near.force(law, film, [path_rate, speed], frames);
@@ -90,7 +90,7 @@ impl Model {
         let mut on_shaft = Vector::zeros();
         let Forces { non_smooth_inner, non_smooth_outer, non_smooth_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
-        let (frames, films, solvers) = (&forces.frames, forces.films.as_ref(), &mut forces.solvers);
+        let (frames, films, shortcuts) = (&forces.frames, forces.films.as_ref(), &mut forces.shortcuts);
         let clearance = self.clearance(films);
         let (law, film) = (&self.inner.contact, films.map(|films| &films.squeeze[RacewaySide::Inner as usize]));
         if RECORD {
@@ -103,7 +103,7 @@ impl Model {
             let gap = self.inner_gap(u, now.offset(), e_r, clearance);
             let at = self.inner_meeting(j, cells, &gap, angle);
             let near = self
-                .near(RacewaySide::Inner, &at, frames, solvers)
+                .near(RacewaySide::Inner, &at, frames, shortcuts)
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
             let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];

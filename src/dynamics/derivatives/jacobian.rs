@@ -13,7 +13,7 @@
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
-use crate::contact::near_defect::LoveSolvers;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
     BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, PathMotion, RingState,
@@ -217,7 +217,7 @@ impl Model {
         cells: &Cells,
         state: &[f64],
         jacobian: &mut Jacobian,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) {
         let start = self.layout.radial_velocity;
         let host = |motion: Motion, prescribed| {
@@ -232,11 +232,11 @@ impl Model {
         };
         self.add_supports(excitation, tau, &shared, jacobian);
         if self.elements_in_balance() {
-            return self.add_elements_in_balance(cells, state, &shared, jacobian, solvers);
+            return self.add_elements_in_balance(cells, state, &shared, jacobian, shortcuts);
         }
         for j in 0..self.element_count {
             let motion = [state[j], state[start + j]];
-            let element = self.linearized(j, self.cells_of(cells, j), motion, &shared.now, solvers);
+            let element = self.linearized(j, self.cells_of(cells, j), motion, &shared.now, shortcuts);
             self.add_element(j, &element, &shared, jacobian);
             self.add_element_by_time(j, &element, &shared, jacobian);
         }
@@ -252,12 +252,12 @@ impl Model {
         state: &[f64],
         shared: &Shared,
         jacobian: &mut Jacobian,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) {
         let (mut by_position, mut by_velocity) = (RingJacobian::zeros(), RingJacobian::zeros());
         for j in 0..self.element_count {
-            let at = self.element_motion(j, PathMotion::at_rest(state[j]), &shared.now);
-            let found = self.in_balance(self.cells_of(cells, j), state[j], &at, solvers);
+            let at = self.element_motion(j, PathMotion::at_rest(state[j]), &shared.now, shortcuts);
+            let found = self.in_balance(self.cells_of(cells, j), state[j], &at, shortcuts);
             self.add_balanced(&found.elastic, &mut by_position);
             for axis in 0..2 {
                 let rings = self.damped_by_drift(&found, axis);

@@ -8,10 +8,10 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
-use crate::contact::near_defect::LoveSolvers;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
 use crate::dynamics::parameters::{
-    Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
+    CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::dual::Dual;
@@ -110,19 +110,20 @@ pub(in crate::dynamics) struct Going {
     alpha: f64,
 }
 
-impl Model {
-    /// How element `j` goes round as the nominal cage's angle and speed change.
-    pub(in crate::dynamics) fn going(&self, j: usize, now: &FramedKinematics, by: &Variation) -> Going {
-        let Lead { rate, second, third, .. } = self.lead(j, now.cage_angle());
-        let (cage, omega, share) = (&now.cage, now.cage.speed, 1.0 + rate);
-        Going {
+impl Going {
+    /// Of an element that is so far ahead as the nominal cage's angle and speed change.
+    pub(in crate::dynamics) fn of(Lead { rate, second, third, .. }: Lead, cage: &CageState, by: &Variation) -> Self {
+        let (omega, share) = (cage.speed, 1.0 + rate);
+        Self {
             turn: share * by.cage_angle,
             speed: share * by.cage_speed + second * omega * by.cage_angle,
             alpha: (cage.acceleration * second + omega * omega * third) * by.cage_angle
                 + 2.0 * omega * second * by.cage_speed,
         }
     }
+}
 
+impl Model {
     /// What element `j`, at path and absolute radial velocity of the state, meets as all that changes.
     fn changing_motion(
         &self,
@@ -130,10 +131,12 @@ impl Model {
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
+        shortcuts: &mut Shortcuts,
     ) -> ElementMotion<Changing> {
         let w = state[self.layout.radial_velocity + j];
-        let at = self.element_motion(j, PathMotion { path: state[j], rate: 0.0 }, now);
-        let Going { turn, speed, alpha } = self.going(j, now, by);
+        let at = self.element_motion(j, PathMotion { path: state[j], rate: 0.0 }, now, shortcuts);
+        let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
+        let Going { turn, speed, alpha } = Going::of(lead, &now.cage, by);
         let frames = [0, 1, 2].map(|i| {
             let (Turn { angle, speed }, [d_angle, d_speed]) = (at.frames.0[i], by.frames[i]);
             Turn { angle: changing(angle, d_angle), speed: changing(speed, d_speed) }
@@ -167,13 +170,13 @@ impl Model {
         state: &[f64],
         acceleration: Vector,
         (by, change): (&mut Variation, &mut ForceChange),
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) {
         let now = self.kinematics(excitation, 0.0, state);
         let mut rings = Rings::zeros();
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
-            let forces = self.changing_forces((j, cells), state, &now, by, solvers);
+            let forces = self.changing_forces((j, cells), state, &now, by, shortcuts);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
             let around = forces.inner.y + forces.outer.y;
@@ -205,13 +208,13 @@ impl Model {
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> ElementForces<Changing> {
-        let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by));
+        let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by, shortcuts));
         if self.elements_in_balance() {
-            self.in_balance(cells, state[j], &at, solvers).forces()
+            self.in_balance(cells, state[j], &at, shortcuts).forces()
         } else {
-            self.element_forces(cells, &at, solvers)
+            self.element_forces(cells, &at, shortcuts)
         }
     }
 
@@ -223,12 +226,12 @@ impl Model {
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> Option<()> {
         let now = self.kinematics(excitation, 0.0, state);
         let mut change = |by: &Variation| -> Rings {
             let elements = 0..self.element_count;
-            elements.map(|j| on_rings(&self.changing_forces((j, cells), state, &now, by, solvers))).sum()
+            elements.map(|j| on_rings(&self.changing_forces((j, cells), state, &now, by, shortcuts))).sum()
         };
         let force = loads + change(by);
         let mut jacobian = RingJacobian::zeros();
@@ -251,13 +254,13 @@ impl Model {
         cells: &Cells,
         state: &[f64],
         by: &Variation,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> Matrix {
         let now = self.kinematics(excitation, 0.0, state);
         let mut jacobian = RingJacobian::<Changing>::zeros();
         for j in 0..self.element_count {
-            let at = self.changing_motion(j, state, &now, by).standing();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, solvers), &mut jacobian);
+            let at = self.changing_motion(j, state, &now, by, shortcuts).standing();
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
         }
         Matrix::from_fn(|row, column| jacobian[(row, column)].by[0])
     }

@@ -1,8 +1,8 @@
 //! Where an element rests on a raceway that it touches without force.
 
-use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Meeting;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH, WholeAngle};
 
 impl Model {
@@ -11,7 +11,7 @@ impl Model {
     pub fn resting_path(&self, j: usize, cage_angle: f64) -> f64 {
         let angle = self.element_angle(j, WholeAngle::in_first_turn(cage_angle));
         let cell = self.outer.defects.cell_at(angle);
-        self.touching_path(j, [cell, SMOOTH], angle, &Frames::default(), &mut LoveSolvers::default())
+        self.touching_path(j, [cell, SMOOTH], angle, &Frames::default(), &mut Shortcuts::default())
     }
 
     /// How much farther (m) element `j` (from 0) comes inwards than on the smooth inner raceway before it touches a
@@ -26,9 +26,9 @@ impl Model {
         }
         let distance = self.outer_centre_radius - self.radial_clearance;
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
-        let solvers = &mut LoveSolvers::default();
+        let shortcuts = &mut Shortcuts::default();
         for _ in 0..20 {
-            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &frames, solvers).approach;
+            let near = self.near_or_unsolved(RacewaySide::Inner, &at, &frames, shortcuts).approach;
             let step = near.value / near.by_path;
             (at.u, at.distance) = (at.u - step, at.distance + step);
             if step.abs() < 1e-15 {

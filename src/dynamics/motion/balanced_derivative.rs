@@ -23,7 +23,7 @@ impl Model {
     ) {
         let Stage { excitation, cage, .. } = *stage;
         let angle = excitation.cage_angle_of(cage);
-        forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.lead_pieces);
+        forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
@@ -56,15 +56,14 @@ impl Model {
         }
         for i in 0..forces.searched.len() {
             let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
-            let lead = self.lead_with(j, now.cage_angle(), &mut forces.lead_pieces);
-            let along = now.housing.velocity.dot(&self.direction_with(j, &now.cage, &lead));
+            let at = self.element_motion(j, PathMotion::at_rest(0.0), &now, &mut forces.shortcuts);
+            let along = now.housing.velocity.dot(&at.e_r);
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
-            let at = self.element_motion_with(j, &lead, PathMotion::at_rest(guess), &now);
-            let found = self.in_balance(cells, guess, &at, &mut forces.solvers);
+            let found = self.in_balance(cells, guess, &at, &mut forces.shortcuts);
             forces.defect_lookups +=
                 found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
-                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now, &mut forces.solvers)
+                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now, &mut forces.shortcuts)
             {
                 forces.unsolved = Some(unsolved);
             }

@@ -111,7 +111,7 @@ mod tests {
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
                 let cage = excitation.cage_at(share * h);
-                model.dense_output(&excitation, ends, [h, share], &cage, &mut forces.lead_pieces, &mut found);
+                model.dense_output(&excitation, ends, [h, share], &cage, &mut forces.shortcuts.leads, &mut found);
                 let expected = integrated(&model, &excitation, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

@@ -70,7 +70,7 @@ impl Model {
         let Stage { excitation, cage, state, ahead } = *stage;
         if UNEVEN_OR_OILED {
             let angle = excitation.cage_angle_of(cage);
-            forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.lead_pieces);
+            forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
             if let Some(films) = &self.films {
                 films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
             }

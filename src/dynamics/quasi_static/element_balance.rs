@@ -25,8 +25,8 @@
 use super::path_search::PathSearch;
 use super::tangent::RadialForce;
 use super::tangent::{Rings, stacked};
-use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
 use crate::dynamics::parameters::{FramedKinematics, Model, PathMotion, SMOOTH};
@@ -101,10 +101,10 @@ impl Model {
         cells: [[u32; 2]; 2],
         guess: f64,
         at: &ElementMotion<T>,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> InBalance<T> {
-        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values(), solvers);
-        let mut still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)), solvers);
+        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values(), shortcuts);
+        let mut still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)), shortcuts);
         let path = if slope == 0.0 {
             T::from(path)
         } else {
@@ -115,7 +115,7 @@ impl Model {
         let path_rate = self.balance_rate(&elastic);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), solvers);
+        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), shortcuts);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
         let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());
         let known = T::from(if is_known { 1.0 } else { f64::NAN });
@@ -137,17 +137,17 @@ impl Model {
         cells: [[u32; 2]; 2],
         guess: f64,
         at: &ElementMotion,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> FoundPath {
         let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         let mut slope = 0.0;
         for evaluations in 1..MOST_EVALUATIONS {
-            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched(), solvers));
+            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched(), shortcuts));
             slope = push.slope;
             if push.force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
-                let path = self.touching_path(at.element, cells[1], at.angle, &at.frames, solvers);
+                let path = self.touching_path(at.element, cells[1], at.angle, &at.frames, shortcuts);
                 return FoundPath { path, slope, evaluations };
             }
             let newton = u - push.force / slope;
@@ -203,9 +203,9 @@ impl Model {
         cells: [[u32; 2]; 2],
         path: f64,
         now: &FramedKinematics,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> Option<UnsolvedContact> {
-        let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(path), now);
+        let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(path), now, shortcuts);
         let gap = self.inner_gap(path, now.offset(), e_r, self.clearance(now.films.as_ref()));
         let inner = self.inner_meeting(j, cells[0], &gap, angle);
         let outer = self.outer_meeting(angle, j, cells[1], path);
@@ -215,7 +215,7 @@ impl Model {
             .into_iter()
             .filter(|(_, at)| at.cells != [SMOOTH; 2])
             .find_map(|(side, at)| {
-                self.near(side, &beyond(at), &now.frames, solvers).err().map(|cause| {
+                self.near(side, &beyond(at), &now.frames, shortcuts).err().map(|cause| {
                     let angle = self.angle_from_defect(side, &at, &now.frames);
                     UnsolvedContact { element: j, angle, offset: now.offset().into(), cause }
                 })

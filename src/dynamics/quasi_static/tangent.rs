@@ -6,7 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
-use crate::contact::near_defect::LoveSolvers;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::plane::Vector;
@@ -88,11 +88,11 @@ impl Model {
         u: &[f64],
         cells: &Cells,
         now: &FramedKinematics,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> RingJacobian {
         let (still, mut jacobian) = (now.standing(), RingJacobian::zeros());
         for (j, &u) in u.iter().enumerate().take(self.element_count) {
-            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still, solvers), &mut jacobian);
+            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still, shortcuts), &mut jacobian);
         }
         jacobian
     }
@@ -104,9 +104,9 @@ impl Model {
         cells: [[u32; 2]; 2],
         u: f64,
         now: &FramedKinematics,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> Linearized {
-        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now), solvers)
+        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now, shortcuts), shortcuts)
     }
 
     /// As [`ring_jacobian`](Self::ring_jacobian) with the dampers' part at the velocities of `now`, each u' being 0,
@@ -116,12 +116,12 @@ impl Model {
         u: &[f64],
         cells: &Cells,
         now: &FramedKinematics,
-        solvers: &mut LoveSolvers,
+        shortcuts: &mut Shortcuts,
     ) -> RingJacobian {
         let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
-            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now).searched();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, solvers), &mut jacobian);
+            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now, shortcuts).searched();
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
         }
         jacobian
     }

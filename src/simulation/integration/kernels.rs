@@ -122,7 +122,7 @@ impl Kernel for Probe<'_> {
                 let start =
                     Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
                 let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
-                model.dense_output(excitation, [start, end], [h, share], &cage, &mut forces.lead_pieces, dense);
+                model.dense_output(excitation, [start, end], [h, share], &cage, &mut forces.shortcuts.leads, dense);
             }
         }
         model.derivative_on::<S, true>(

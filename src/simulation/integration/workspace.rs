@@ -124,8 +124,8 @@ impl Workspace {
     /// Jacobian at the start of the next step, unless it is there.
     pub(super) fn linearize(&mut self, problem: Problem, tau: f64, progress: &Progress) {
         if !self.linearized {
-            let (jacobian, solvers) = (&mut self.jacobian, &mut self.forces.solvers);
-            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, solvers);
+            let (jacobian, shortcuts) = (&mut self.jacobian, &mut self.forces.shortcuts);
+            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, shortcuts);
             self.linearized = true;
         }
     }

@@ -78,7 +78,7 @@ impl Simulation {
         }
         self.refresh()?;
         let excitation = self.excitation(true);
-        self.forces.solvers.forget();
+        self.forces.shortcuts.forget();
         let progress = &self.state.progress;
         self.model.derivative(
             &excitation,
@@ -139,7 +139,7 @@ impl Simulation {
             }
         }
         self.refresh()?;
-        self.forces.solvers.forget();
+        self.forces.shortcuts.forget();
         self.along_inputs(knowns, seed);
         if !self.state.started {
             let excitation = self.excitation(false);
@@ -150,7 +150,7 @@ impl Simulation {
                 &progress.state,
                 loads,
                 &mut self.change.variation,
-                &mut self.forces.solvers,
+                &mut self.forces.shortcuts,
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
@@ -304,7 +304,7 @@ impl Simulation {
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
         let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
-        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.solvers);
+        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.shortcuts);
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
@@ -342,7 +342,7 @@ impl Simulation {
                 state
             };
             change.stiffness =
-                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.solvers);
+                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.shortcuts);
         }
     }
 

@@ -176,7 +176,7 @@ impl Simulation {
         for tau in [0.0, step] {
             self.check_films(&excitation, tau)?;
         }
-        self.workspace.forces.solvers.forget();
+        self.workspace.forces.shortcuts.forget();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
             Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
             // What is not sampled cannot be made up for: whoever records on from here begins anew.

@@ -257,7 +257,7 @@ impl Assembly {
         let mut forces = Forces::of(model);
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let mut jacobian = Jacobian::new(model);
-        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut forces.solvers);
+        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut forces.shortcuts);
         let contacts = &forces.contacts;
         let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
         let weight = model.element_mass * model.gravity.norm();

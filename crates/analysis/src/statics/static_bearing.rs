@@ -230,7 +230,7 @@ impl StaticBearing {
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;
         let paths = &state[..model.element_count];
         let jacobian =
-            model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state), &mut forces.solvers);
+            model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state), &mut forces.shortcuts);
         let cage = WholeAngle::in_first_turn(cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
             angle: wrap(model.element_angle(j, cage)),

@@ -1,9 +1,10 @@
 //! The Jacobian against difference quotients, and what other tests need of it.
 
-use crate::contact::near_defect::{LoveSolvers, NearDefect};
+use crate::contact::near_defect::NearDefect;
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::derivatives::jacobian::*;
 use crate::dynamics::parameters::{
     Cells, Centred, Cubic, DefectiveElement, Defects, Frame, Quadratic, SMOOTH, Turning,
@@ -132,8 +133,7 @@ pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<
         let outer = model.outer.defects.cell_at(angle);
         let at = model.outer_meeting(angle, j, [outer, SMOOTH], 0.0);
         let frames = excitation.frames_at(0.0);
-        let floor =
-            -model.near_or_unsolved(RacewaySide::Outer, &at, &frames, &mut LoveSolvers::default()).approach.value;
+        let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames, &mut Shortcuts::default()).approach.value;
         state[j] += floor + 6e-6;
     }
     let cells = model.cells_at(excitation, 0.0, &state);
@@ -196,7 +196,7 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
             near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
             let len = model.layout.len;
             let mut jacobian = Jacobian::new(&model);
-            model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut LoveSolvers::default());
+            model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut Shortcuts::default());
             let matrix = jacobian.matrix(len);
             let mut forces = Forces::of(&model);
             let mut at = |tau: f64, state: &[f64]| {

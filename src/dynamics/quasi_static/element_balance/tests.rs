@@ -1,8 +1,8 @@
 //! Elements in balance: those found side by side against those found alone, rates and tangents against differences.
 
-use crate::contact::near_defect::LoveSolvers;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
 use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};
@@ -74,8 +74,8 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
             let in_cells = model.cells_of(cells, j);
-            let at = model.element_motion(j, PathMotion::at_rest(0.0), &now);
-            let found = model.in_balance(in_cells, 0.0, &at, &mut LoveSolvers::default());
+            let at = model.element_motion(j, PathMotion::at_rest(0.0), &now, shortcuts);
+            let found = model.in_balance(in_cells, 0.0, &at, &mut Shortcuts::default());
             let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
             let scale = found.inner.norm() + found.outer.norm() + body.abs();
@@ -122,8 +122,8 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
                 let [one, other] = [&forces, &again].map(|forces| forces.contacts.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
-                let at = model.element_motion(j, PathMotion::at_rest(guess), &now);
-                let alone = model.in_balance(model.cells_of(cells, j), guess, &at, &mut LoveSolvers::default()).path;
+                let at = model.element_motion(j, PathMotion::at_rest(guess), &now, shortcuts);
+                let alone = model.in_balance(model.cells_of(cells, j), guess, &at, &mut Shortcuts::default()).path;
                 assert!((one - alone).abs() < 1e-15, "{one:e} and {alone:e} alone from {guess:e}");
             }
         }
@@ -170,7 +170,7 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
                 let Moving { model, excitation, state, cells } = &case;
                 let len = model.layout.len;
                 let mut jacobian = Jacobian::new(model);
-                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut LoveSolvers::default());
+                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut Shortcuts::default());
                 let matrix = jacobian.matrix(len);
                 let (here, forces) = case.at(0.0, state);
                 let largest = here.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
@@ -219,7 +219,7 @@ fn registers_of_every_width_give_the_same_bits() {
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.update_uneven(excitation.cage_angle_of(&cage), &mut forces.elements, &mut forces.lead_pieces);
+            model.update_uneven(excitation.cage_angle_of(&cage), &mut forces.elements, &mut forces.shortcuts.leads);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

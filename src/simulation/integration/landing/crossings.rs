@@ -67,7 +67,7 @@ pub(in crate::simulation) fn first_crossing(
 ) -> Option<Crossing> {
     let model = problem.model;
     let Workspace { buffers, forces, .. } = &mut *workspace;
-    let pieces = &mut forces.lead_pieces;
+    let pieces = &mut forces.shortcuts.leads;
     let [start, end] = [(span.from, &progress.state), (span.end(), &buffers.end)].map(|(tau, state)| Instant {
         now: model.kinematics(problem.excitation, tau, state),
         tau,
@@ -110,7 +110,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         let tau = span.from + share * span.length;
         let now = model.kinematics(problem.excitation, tau, &workspace.dense);
         let there = Instant { now, tau, paths: &workspace.dense };
-        let made = begun.travel(problem, &there, &mut workspace.forces.lead_pieces) / way;
+        let made = begun.travel(problem, &there, &mut workspace.forces.shortcuts.leads) / way;
         let beyond = made >= 1.0;
         if beyond {
             high = share

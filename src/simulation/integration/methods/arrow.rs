@@ -157,7 +157,7 @@ impl Arrow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::near_defect::LoveSolvers;
+    use crate::dynamics::contacts::Shortcuts;
     use crate::dynamics::derivatives::jacobian::tests::{DAMPINGS, MOTIONS, lively, moving, noise};
 
     #[test]
@@ -169,7 +169,7 @@ mod tests {
             let (state, cells) = moving(&model, &excitation, case as u64);
             let len = model.layout.len;
             let mut jacobian = Jacobian::new(&model);
-            model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut LoveSolvers::default());
+            model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
             let matrix = jacobian.matrix(len);
             let mut arrow = Arrow::new(&model);
             for shift in [1e2, 1e5, 1e9] {
