@@ -6,7 +6,6 @@
 //! two bodies touch, seen in the frame of the one that bears the defect, from the defect's centre. The surface around
 //! the defect is cut at knots into cells inside which Δ is smooth.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::equivalent::{EquivalentApproach, SecondDerivatives};
@@ -89,8 +88,8 @@ impl NearMap {
 /// A grid on its surface, solved where that is neither smooth nor flat.
 #[derive(Debug, Clone)]
 pub struct NearLove {
-    /// The last contact is where the solution of the next one starts, and nothing else.
-    contact: RefCell<LoveContact>,
+    /// As it was prepared; contacts are solved in copies of it.
+    contact: Arc<LoveContact>,
     bearer_radius: f64,
     knots: Vec<f64>,
     /// Depth of each cell that is flat.
@@ -101,20 +100,76 @@ impl NearLove {
     /// A grid for a defect on a body of this radius (m).
     pub fn new(Unmapped { contact, knots, flats }: Unmapped, bearer_radius: f64) -> Self {
         let knots = knots.into_iter().map(|arc| arc / bearer_radius).collect();
-        Self { contact: RefCell::new(contact), bearer_radius, knots, flats }
+        Self { contact: Arc::new(contact), bearer_radius, knots, flats }
     }
 
-    fn solve(&self, cell: usize, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
+    /// A function of its own, so that nothing of it is in the way of other laws.
+    #[inline(never)]
+    fn solve(
+        &self,
+        cell: usize,
+        [u, s]: [f64; 2],
+        solvers: &mut LoveSolvers,
+    ) -> Result<EquivalentApproach, ContactError> {
         match self.flats[cell] {
             Some(depth) => Ok(EquivalentApproach::flat(u, depth)),
-            None => self.contact.borrow_mut().solve(u, s),
+            None => solvers.of(self).solve(u, s),
         }
     }
 
-    fn second_derivatives(&self, cell: usize, u: f64, s: f64) -> Result<SecondDerivatives, ContactError> {
+    #[inline(never)]
+    fn second_derivatives(
+        &self,
+        cell: usize,
+        [u, s]: [f64; 2],
+        solvers: &mut LoveSolvers,
+    ) -> Result<SecondDerivatives, ContactError> {
         match self.flats[cell] {
             Some(_) => Ok(SecondDerivatives::default()),
-            None => self.contact.borrow_mut().second_derivatives(u, s),
+            None => solvers.of(self).second_derivatives(u, s),
+        }
+    }
+}
+
+/// Where contacts of law `love` are solved, one place for each defect; none under another law. In each the last contact
+/// is where the solution of the next one starts, and nothing else.
+#[derive(Debug, Clone, Default)]
+pub struct LoveSolvers(Vec<LoveSolver>);
+
+/// Where the contacts near one defect are solved.
+#[derive(Debug, Clone)]
+struct LoveSolver {
+    /// The defect's grid as it was prepared.
+    prepared: Arc<LoveContact>,
+    contact: LoveContact,
+}
+
+impl LoveSolvers {
+    /// Those of these surfaces, with the room that their contacts need.
+    pub fn new<'a>(surfaces: impl IntoIterator<Item = &'a NearDefect>) -> Self {
+        let mut solvers = Self::default();
+        for surface in surfaces {
+            if let NearDefect::Love(near) = surface {
+                solvers.of(near);
+            }
+        }
+        solvers
+    }
+
+    /// That of a surface, made if there is none yet.
+    fn of(&mut self, near: &NearLove) -> &mut LoveContact {
+        let known = self.0.iter().position(|solver| Arc::ptr_eq(&solver.prepared, &near.contact));
+        let at = known.unwrap_or(self.0.len());
+        if known.is_none() {
+            self.0.push(LoveSolver { prepared: near.contact.clone(), contact: near.contact.copy() });
+        }
+        &mut self.0[at].contact
+    }
+
+    /// Forgets what was solved before, so that the next answers do not depend on it even in their rounding.
+    pub fn forget(&mut self) {
+        for solver in &mut self.0 {
+            solver.contact.forget();
         }
     }
 }
@@ -133,6 +188,7 @@ impl NearDefect {
     /// Approach in `cell` at the approach `u` (m) to the smooth raceway and at `angle` (rad) from the defect's centre,
     /// which may lie slightly beyond the cell's ends, of an element at this `distance` (m) from the ring's centre.
     /// With derivatives, those of the slopes along the surface are left out if it is not to be taken as `curved`.
+    /// Law `love` is solved in `solvers`.
     ///
     /// # Errors
     /// Where the law was not prepared for so large an approach, or the grid cannot be solved.
@@ -144,6 +200,7 @@ impl NearDefect {
         angle: T,
         distance: T,
         curved: bool,
+        solvers: &mut LoveSolvers,
     ) -> Result<Approach<T>, ContactError> {
         match self {
             Self::Map(near) => {
@@ -158,9 +215,9 @@ impl NearDefect {
             }
             Self::Love(near) => {
                 let at = [u, angle * T::Plain::from(near.bearer_radius)];
-                let found = near.solve(cell, at[0].value(), at[1].value())?;
-                let second = &mut |[u, s]: [f64; 2]| match curved {
-                    true => near.second_derivatives(cell, u, s).map(SecondDerivatives::rows),
+                let found = near.solve(cell, at.map(T::value), solvers)?;
+                let second = &mut |at: [f64; 2]| match curved {
+                    true => near.second_derivatives(cell, at, solvers).map(SecondDerivatives::rows),
                     false => Ok([found.duu, found.dus, 0.0]),
                 };
                 let approach = T::surface(at, [found.value, found.du, found.ds], STEP, second)?;
@@ -183,13 +240,6 @@ impl NearDefect {
                     tangential: tan * radial,
                 })
             }
-        }
-    }
-
-    /// Forgets what was solved before, so that the next answers do not depend on it even in their rounding.
-    pub fn forget(&self) {
-        if let Self::Love(near) = self {
-            near.contact.borrow_mut().forget();
         }
     }
 

@@ -13,7 +13,8 @@ use crate::oracle::surface::Surface;
 use crate::random_case::random;
 use crate::subject::{Refusal, Subject};
 use brinell::contact::error::ContactError;
-use brinell::dynamics::parameters::{Defects, Frames, SMOOTH};
+use brinell::contact::near_defect::LoveSolvers;
+use brinell::dynamics::parameters::{Defects, SMOOTH};
 use brinell::simulation::SimulationError;
 use judge::{Verdict, judge};
 use report::{Came, Entry, Tally};
@@ -173,8 +174,8 @@ fn path_is_the_envelope(
         let found = match cell {
             SMOOTH => 0.0,
             _ => {
-                let frames = Frames::default();
-                -defects.approach(cell, 0.0, direction, &frames, oracle.rho_0, true).map_err(|e| e.to_string())?.value
+                let solvers = &mut LoveSolvers::default();
+                -defects.approach(cell, 0.0, direction, oracle.rho_0, true, solvers).map_err(|e| e.to_string())?.value
             }
         };
         let expected = envelope.touched(psi).1;

@@ -7,6 +7,7 @@
 //! point is left out where its slope is not between its neighbours'. How many points may be left out is limited.
 #![allow(clippy::unwrap_used)]
 
+use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::equivalent::SecondDerivatives;
 use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution};
 use brinell::contact::map::{ContactMap, MapPlan, MapSpecification, Sequential};
-use brinell::contact::near_defect::{NearDefect, NearLove, NearMap};
+use brinell::contact::near_defect::{LoveSolvers, NearDefect, NearLove, NearMap};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::numerics::number::Dual;
@@ -32,23 +33,29 @@ const STEPS: [f64; 2] = [1e-9, 1e-8];
 struct Near {
     law: NearDefect,
     radius: f64,
+    solvers: RefCell<LoveSolvers>,
 }
 
 impl Near {
+    fn new(law: NearDefect, radius: f64) -> Self {
+        Self { law, radius, solvers: RefCell::default() }
+    }
+
     fn cell(&self, s: f64) -> usize {
         self.law.knots().partition_point(|&knot| knot * self.radius <= s).clamp(1, self.law.knots().len() - 1) - 1
     }
 
     /// Δ, ∂Δ/∂u and ∂Δ/∂s in a cell.
     fn first(&self, cell: usize, u: f64, s: f64) -> Option<[f64; 3]> {
-        let found = self.law.approach(cell, u, s / self.radius, DISTANCE, true).ok()?;
+        let found = self.law.approach(cell, u, s / self.radius, DISTANCE, true, &mut self.solvers.borrow_mut()).ok()?;
         Some([found.value, found.by_path, found.by_angle / self.radius])
     }
 
     fn second(&self, cell: usize, u: f64, s: f64) -> Option<SecondDerivatives> {
         let dual = Dual::<f64, 2>::variable;
         let (u, angle) = (dual(u, 0), dual(s / self.radius, 1));
-        let found = self.law.approach(cell, u, angle, Dual::from(DISTANCE), true).ok()?;
+        let found =
+            self.law.approach(cell, u, angle, Dual::from(DISTANCE), true, &mut self.solvers.borrow_mut()).ok()?;
         let ([uu, us], [_, ss]) = (found.by_path.by, found.by_angle.by);
         Some(SecondDerivatives { uu, us: us / self.radius, ss: ss / (self.radius * self.radius) })
     }
@@ -178,7 +185,7 @@ fn second_derivatives_of_a_map_are_differences_of_its_slopes() {
     for (name, element, surface, soft) in cases() {
         let map = ContactMap::build(&surface, element, specification(soft), &mut Sequential(|_, _| ())).unwrap();
         let radius = element.raceway_radius;
-        let near = Near { law: NearDefect::Map(NearMap::new(Arc::new(map), radius)), radius };
+        let near = Near::new(NearDefect::Map(NearMap::new(Arc::new(map), radius)), radius);
         let grid = grid(element, &surface, soft);
         // Slopes of 1 at most, from Hermite coefficients that are a few times as large: some ten roundings.
         let points = compare(&near, |s| grid.first_touch(s), 2000, 2e-15);
@@ -192,7 +199,7 @@ fn second_derivatives_of_law_love_are_differences_of_its_slopes() {
     for (name, element, surface, soft) in cases() {
         let radius = element.raceway_radius;
         let unmapped = MapPlan::new(&surface, element, specification(soft)).unwrap().into_love();
-        let near = Near { law: NearDefect::Love(Box::new(NearLove::new(unmapped, radius))), radius };
+        let near = Near::new(NearDefect::Love(Box::new(NearLove::new(unmapped, radius))), radius);
         let grid = grid(element, &surface, soft);
         // Slopes of 1 at most, from solutions whose matrix has a condition of 1e3.
         let points = compare(&near, |s| grid.first_touch(s), 400, 2e-13);
@@ -250,7 +257,7 @@ fn second_derivatives_of_a_rigid_path_are_differences_of_its_slope() {
         let Surface::Profile(dent) = dent() else { unreachable!() };
         for (name, profile) in [("edges", spall(FRAC_PI_2)), ("flanks", spall(0.6)), ("dent", dent)] {
             let path = RigidPath::new(profile.points(), rolling).unwrap();
-            let near = Near { law: NearDefect::Hertz(path), radius };
+            let near = Near::new(NearDefect::Hertz(path), radius);
             // Slopes are 0.3 at most; at the intervals' ends their derivative steps by less than a millionth.
             let points = compare(&near, |_| 0.0, 4000, 1e-15);
             println!("{raceway:?} {on_element} {name}: {points:?}");

@@ -1,5 +1,5 @@
-//! Under every contact law, with an element passing the defect: a step allocates nothing, and a state that is put back
-//! continues with the same bits.
+//! Under every contact law, with an element passing the defect: a step allocates nothing, a state that is put back
+//! continues with the same bits, and neither who looks on nor who else uses the model changes any.
 //!
 //! Bits are also the same whatever the machine's instructions; kernels choose them at run time, so the rest of the
 //! program is what compiler flags can change: the golden runs hold under each of them, `for cpu in x86-64 x86-64-v3
@@ -9,6 +9,8 @@
 
 use crate::counting;
 use crate::support::{Named, shipped};
+use brinell::dynamics::contacts::Forces;
+use brinell::dynamics::parameters::{Excitation, Model};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,6 +18,10 @@ const LAWS: [ContactLaw; 3] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::L
 
 /// A bearing with a short shallow spall that element 1 is about to enter.
 fn passing(law: ContactLaw) -> Named {
+    Named::started(passage(law))
+}
+
+fn passage(law: ContactLaw) -> Scene {
     let mut scene: Scene = shipped("er16k-tb1");
     scene.contact.law = law;
     scene.contact.largest_force = Some(1000.0);
@@ -23,7 +29,7 @@ fn passing(law: ContactLaw) -> Named {
     scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
     // The spall's half length and half a contact's.
     scene.cage.initial_angle = -FRAC_PI_2 - 3e-4 / scene.bearing.outer_raceway_radius();
-    Named::started(scene)
+    scene
 }
 
 const OUTPUTS: [&str; 5] = ["shaft.y", "housing.ay", "element[1].path", "element[1].force.outer", "cage.angle"];
@@ -60,5 +66,60 @@ fn a_state_taken_and_put_back_a_hundred_times_changes_no_bit() {
             assert_eq!(bits(&mut bearing), bits(&mut alone), "{law:?}");
         }
         assert!(lookups(&mut bearing) > 0, "{law:?}: no element was near the defect");
+    }
+}
+
+#[test]
+fn a_step_that_is_inspected_has_the_bits_of_one_that_is_not() {
+    for law in LAWS {
+        let (mut watched, mut alone) = (passing(law), passing(law));
+        let bits = |bearing: &mut Named| OUTPUTS.map(|name| bearing.get(name).to_bits());
+        let mut inspections = 0;
+        for n in 0..20 {
+            let mut under_way = watched.0.begin_step(2e-5).unwrap();
+            while !under_way.is_done() {
+                watched.0.advance_once(&mut under_way).unwrap();
+                let inspection = watched.0.inspect(&under_way);
+                bits(&mut watched);
+                watched.0.resume(&mut under_way, inspection).unwrap();
+                inspections += 1;
+            }
+            watched.0.end_step(under_way);
+            alone.run(2e-5, 1);
+            assert_eq!(bits(&mut watched), bits(&mut alone), "{law:?} after step {n}");
+        }
+        assert!(inspections > 40 && lookups(&mut watched) > 0, "{law:?}: {inspections} inspections");
+    }
+}
+
+/// Derivatives of one state along the way over the spall, beginning after so many turns of an uneven cage, and how many
+/// contacts near it were asked for.
+fn derivatives(model: &Model, excitation: &Excitation, turns: i64, state: &[f64]) -> (Vec<u64>, u64) {
+    let excitation = Excitation { cage_turns: turns, ..*excitation };
+    let (mut forces, mut derivative) = (Forces::of(model), vec![0.0; state.len()]);
+    let bits = (0..60).flat_map(|n| {
+        let tau = 1e-5 * f64::from(n);
+        let cells = model.cells_at(&excitation, tau, state);
+        model.derivative(&excitation, tau, &cells, state, &mut derivative, &mut forces);
+        derivative.iter().map(|value| value.to_bits()).collect::<Vec<_>>()
+    });
+    (bits.collect(), forces.defect_lookups)
+}
+
+#[test]
+fn a_model_that_threads_share_gives_each_the_bits_it_would_have_alone() {
+    for law in LAWS {
+        let mut scene = passage(law);
+        scene.cage.irregularity = shipped("6205-irregular-cage").cage.irregularity;
+        let bearing = Named::started(scene);
+        let ((model, excitation), state) = (bearing.0.equations(), bearing.0.state_vector());
+        let alone = [0, 1000].map(|turns| derivatives(model, &excitation, turns, state));
+        assert!(alone[0].1 + alone[1].1 > 20, "{law:?}: no element was near the defect");
+        assert_ne!(alone[0].0, alone[1].0, "{law:?}: turns that make no difference");
+        let together = std::thread::scope(|threads| {
+            let start = |turns| threads.spawn(move || derivatives(model, &excitation, turns, state));
+            [0, 1000].map(start).map(|thread| thread.join().unwrap())
+        });
+        assert!(together == alone, "{law:?}");
     }
 }

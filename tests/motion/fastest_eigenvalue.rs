@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
+use brinell::dynamics::contacts::Shortcuts;
 use brinell::dynamics::derivatives::{Fastest, Jacobian};
 use brinell::dynamics::parameters::{Excitation, Model, Quadratic};
 use brinell::scene::{Damping, Motion, Scene, Sensor};
@@ -101,7 +102,7 @@ fn jacobian(draw: &mut Draw, scene: &Scene) -> (Model, Jacobian) {
     }
     let cells = model.cells_at(&excitation, 0.0, &vec![0.0; model.layout.len]);
     let mut jacobian = Jacobian::new(&model);
-    model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; layout.len]);
+    model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
     (model, jacobian)
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, map_of, profile_of, shipped, shipped_as_it_is};
+use brinell::dynamics::contacts::Shortcuts;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::parameters::{Cells, FramedKinematics};
 use brinell::geometry::hertz_constant::HertzConstants;
@@ -210,7 +211,8 @@ fn heavy_rings_are_masses_on_the_static_stiffness() {
         let [shaft, housing] = [layout.shaft, layout.housing].map(Option::unwrap);
         let [x, y] = [0, 1].map(|axis| state[housing + axis] - state[shaft + axis]);
         let (cells, now) = (Cells::smooth(model.element_count, 0), FramedKinematics::at_rest(angle, Vector::new(x, y)));
-        let elements_in_balance = model.ring_jacobian(&state[..model.element_count], &cells, &now);
+        let elements_in_balance =
+            model.ring_jacobian(&state[..model.element_count], &cells, &now, &mut Shortcuts::default());
         let entry = |i: usize, k: usize| {
             let ring = if i < 2 { both.shaft } else { both.housing };
             (if i == k { ring.stiffness } else { 0.0 } - elements_in_balance[(i, k)]) / ring.mass
@@ -247,7 +249,7 @@ fn eigenvalues_sum_to_the_trace() {
         let mut jacobian = Jacobian::new(model);
         let state = bearing.0.state_vector();
         let cells = model.cells_at(&excitation, 0.0, state);
-        model.linearize(&excitation, 0.0, &cells, state, &mut jacobian, &mut vec![0.0; state.len()]);
+        model.linearize(&excitation, 0.0, &cells, state, &mut jacobian, &mut Shortcuts::default());
         let matrix = jacobian.matrix(state.len());
         let trace: f64 = (0..state.len()).map(|i| matrix[i][i]).sum();
         // Roundings of eigenvalues, which are up to a hundred times the sum.

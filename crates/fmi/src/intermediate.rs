@@ -1,9 +1,8 @@
 //! A step that tells its host how far it has come: FMI 3.0's intermediate update, and the early return it may ask for.
 //!
 //! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
-//! then act from there on. A run that is inspected so has the bits of one that is not, unless inputs are set (and but
-//! for law `love`, see `brinell::simulation::run::stepping`). An early return ends the step where the host was told, or
-//! at a later instant that it names, and that exactly.
+//! then act from there on. A run that is inspected so has the bits of one that is not, unless inputs are set. An early
+//! return ends the step where the host was told, or at a later instant that it names, and that exactly.
 
 use crate::boundary;
 use crate::c_interface::Bool;

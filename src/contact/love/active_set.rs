@@ -84,21 +84,32 @@ impl ActiveSet {
                 expected: needed,
             });
         }
-        // Room for every window, so that later contacts allocate nothing unless they are the largest so far.
-        let columns = kernel.columns();
-        Ok(Self {
+        let mut solver = Self {
             pairs: Arc::new(RowPairs::new(kernel, rows, mirror)),
             mirror,
             edges: Vec::new(),
             factor: Cholesky::default(),
-            factored: Vec::with_capacity(4 * rows),
+            factored: Vec::new(),
             factored_there: false,
-            runs: Vec::with_capacity(4 * rows),
-            state: Vec::with_capacity(rows * columns),
+            runs: Vec::new(),
+            state: Vec::new(),
             pressure: Vec::new(),
-            segments: Vec::with_capacity(columns.div_ceil(SEGMENT)),
-            deflection: Vec::with_capacity(columns.next_multiple_of(SEGMENT)),
-        })
+            segments: Vec::new(),
+            deflection: Vec::new(),
+        };
+        solver.make_room();
+        Ok(solver)
+    }
+
+    /// Makes room for every window, so that later contacts allocate nothing unless they are the largest so far. A copy
+    /// has none but for what is filled.
+    pub(super) fn make_room(&mut self) {
+        let (rows, columns) = (self.pairs.rows(), self.pairs.reach());
+        self.factored.reserve(4 * rows);
+        self.runs.reserve(4 * rows);
+        self.state.reserve(rows * columns);
+        self.segments.reserve(columns.div_ceil(SEGMENT));
+        self.deflection.reserve(columns.next_multiple_of(SEGMENT));
     }
 
     /// With edges that make the raceway softer.

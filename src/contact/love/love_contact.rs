@@ -132,6 +132,14 @@ impl LoveContact {
         Ok(contact)
     }
 
+    /// The same with nothing solved yet, and with the room that this one was made with.
+    pub(in crate::contact) fn copy(&self) -> Self {
+        let mut copy = self.clone();
+        copy.layers.iter_mut().for_each(|layer| layer.make_room(self.largest_approach));
+        copy.forget();
+        copy
+    }
+
     /// The grid under the element that has a row along the groove's bottom.
     pub fn grid(&self) -> &RacewayGrid {
         &self.layers[0].grid
@@ -303,16 +311,18 @@ impl LoveContact {
 impl Layer {
     fn new(grid: RacewayGrid, largest_approach: f64, softness: Option<Softness>) -> Result<Self, ContactError> {
         let solver = solver_for(&grid, largest_approach, softness)?;
-        let (rows, columns) = (grid.rows(), grid.widest(grid.deepest() + 3.0 * largest_approach));
-        Ok(Self {
-            grid,
-            softness,
-            solver,
-            interference: Vec::with_capacity(rows * columns),
-            slopes: Vec::with_capacity(columns),
-            unit: Vec::new(),
-            energy: Energy::default(),
-        })
+        let [interference, slopes, unit] = [const { Vec::new() }; 3];
+        let mut layer = Self { grid, softness, solver, interference, slopes, unit, energy: Energy::default() };
+        layer.make_room(largest_approach);
+        Ok(layer)
+    }
+
+    /// Makes room for every window; a copy has none but for what is filled.
+    fn make_room(&mut self, largest_approach: f64) {
+        let (rows, columns) = (self.grid.rows(), self.grid.widest(self.grid.deepest() + 3.0 * largest_approach));
+        self.interference.reserve(rows * columns);
+        self.slopes.reserve(columns);
+        self.solver.make_room();
     }
 
     fn energy(&mut self, u: f64, s: f64, largest_approach: f64) -> Result<Energy, ContactError> {

@@ -99,6 +99,13 @@ pub struct Record {
 }
 
 impl Record {
+    /// Path (m) of each element in `state`, of which these are the contacts: where it is, or where it is in balance.
+    /// There may be more slots than elements.
+    #[inline]
+    pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
+        if model.elements_in_balance() { &self.balanced[0] } else { state }
+    }
+
     /// Room for `slots` elements.
     pub(in crate::dynamics) fn new(slots: usize) -> Self {
         let zeros = || Row::zeros(slots);

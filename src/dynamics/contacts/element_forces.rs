@@ -2,6 +2,7 @@
 
 use super::element_motion::ElementMotion;
 use super::kernel::{InnerGap, Meeting, film_on, normal_force};
+use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
@@ -119,10 +120,11 @@ impl Model {
         &self,
         cells: [[u32; 2]; 2],
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> ElementForces<T> {
         let (place, beside) = (self.inner_place(cells[0], at), self.outer_place(cells[1], at));
-        let (inner, gap) = self.inner_contact(&self.inner.contact, &place);
-        let outer = self.outer_contact(&self.outer.contact, &beside);
+        let (inner, gap) = self.inner_contact(&self.inner.contact, &place, shortcuts);
+        let outer = self.outer_contact(&self.outer.contact, &beside, shortcuts);
         let bearer = |cells: [u32; 2], frame| (cells != [SMOOTH; 2]).then_some(frame);
         ElementForces {
             at: *at,
@@ -191,6 +193,7 @@ impl Model {
         &self,
         contact: &CompliantContact,
         place: &InnerPlace<T>,
+        shortcuts: &mut Shortcuts,
     ) -> (OnElement<T>, InnerGap<T>) {
         let InnerPlace { element, cells, q_rate, frames, films, .. } = place;
         let clearance = self.clearance_between(films.as_ref());
@@ -204,7 +207,7 @@ impl Model {
         let (element, cells, direction) = (*element, *cells, place.angle + gap.lead());
         let (u, distance, curved) = (gap.approach, gap.distance, place.curved);
         let at = Meeting { element, cells, u, direction, distance, curved };
-        let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames);
+        let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames, shortcuts);
         let rates = [gap.closing(*q_rate), gap.turning(*q_rate)];
         let found = near.force(contact, film, rates, frames);
         (OnElement { force: gap.turned(found.force), approach: found.approach, frame: near.frame }, gap)
@@ -212,7 +215,12 @@ impl Model {
 
     /// The outer contact.
     #[inline(always)]
-    pub(super) fn outer_contact<T: Scalar>(&self, contact: &CompliantContact, place: &OuterPlace<T>) -> OnElement<T> {
+    pub(super) fn outer_contact<T: Scalar>(
+        &self,
+        contact: &CompliantContact,
+        place: &OuterPlace<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> OnElement<T> {
         let OuterPlace { element, cells, u, angle, frames, films, .. } = place;
         let film = film_on(films.as_ref(), RacewaySide::Outer);
         if *cells == [SMOOTH; 2] {
@@ -222,7 +230,7 @@ impl Model {
         let distance = *u + T::from(self.outer_centre_radius);
         let (element, cells, curved) = (*element, *cells, place.curved);
         let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
-        let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames);
+        let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames, shortcuts);
         let rates = [place.path_rate, place.omega];
         let found = near.force(contact, film, rates, frames);
         OnElement { force: found.force, approach: found.approach, frame: near.frame }

@@ -1,6 +1,7 @@
 //! What one element meets at an instant: where it is, how it moves, and how all that it touches does. In numbers of any
 //! kind, so that a change of any of it is followed through the contacts by the one text there is of them.
 
+use super::shortcuts::Shortcuts;
 use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, OilFilms, PathMotion, Turn};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
@@ -142,13 +143,15 @@ impl Model {
         j: usize,
         PathMotion { path, rate: path_rate }: PathMotion,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> ElementMotion {
-        let (e_r, [omega, alpha]) = (self.direction(j, &now.cage), self.element_speed(j, &now.cage));
+        let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
+        let (e_r, [omega, alpha]) = (self.direction_with(j, &now.cage, &lead), lead.speed(&now.cage));
         ElementMotion {
             element: j,
             e_r,
             e_t: turned(e_r),
-            angle: self.element_angle(j, &now.cage),
+            angle: now.cage.angle + self.element_offset(j) + lead.angle,
             omega,
             alpha,
             path,

@@ -1,9 +1,10 @@
 //! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
 use super::contact_lanes::Record;
+use super::shortcuts::Shortcuts;
 use crate::contact::error::ContactError;
 use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Model, SMOOTH};
+use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Lead, Model, SMOOTH};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
@@ -15,6 +16,8 @@ pub struct Forces {
     pub contacts: Record,
     /// The elements, with what follows from the raceway that each is on.
     pub(in crate::dynamics) elements: Vec<ElementBlock>,
+    /// What an uneven cage itself is ahead.
+    pub(crate) cage_lead: Lead,
     /// Outer contacts that are not those of the smooth rigid raceway.
     pub(in crate::dynamics) non_smooth_outer: Vec<NonSmooth>,
     /// Inner contacts near defects.
@@ -34,6 +37,8 @@ pub struct Forces {
     /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(in crate::dynamics) torques: [f64; 3],
+    /// Shortcuts.
+    pub shortcuts: Shortcuts,
     /// Number of approaches near the defect that were asked for.
     pub defect_lookups: u64,
     /// The last contact near a defect that could not be computed, of an element whose position is a number.
@@ -59,6 +64,7 @@ impl Clone for Forces {
         Self {
             contacts: self.contacts.clone(),
             elements: self.elements.clone(),
+            shortcuts: self.shortcuts.clone(),
             unsolved: self.unsolved.clone(),
             non_smooth_outer: with_its_room(&self.non_smooth_outer),
             non_smooth_inner: with_its_room(&self.non_smooth_inner),
@@ -78,7 +84,7 @@ fn with_its_room<T: Copy>(list: &Vec<T>) -> Vec<T> {
 impl Forces {
     /// Room for the contacts of a model, which is less where it has no defect inside.
     pub fn of(model: &Model) -> Self {
-        let mut forces = Self::new(model.element_count);
+        let mut forces = Self { shortcuts: Shortcuts::of(model), ..Self::new(model.element_count) };
         if !model.may_have_inner_defects {
             (forces.non_smooth_inner, forces.non_smooth_contacts[0]) = (Vec::new(), Vec::new());
         }
@@ -136,13 +142,6 @@ impl Forces {
         }
     }
 
-    /// Path (m) of each element in `state`, of which these are the forces: where it is, or where it is in balance.
-    /// There may be more slots than elements.
-    #[inline]
-    pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
-        if model.elements_in_balance() { &self.contacts.balanced[0] } else { state }
-    }
-
     /// Puts where elements in balance are, and how fast they move, into their slots of a state; elements with inertia
     /// have their own.
     #[inline]
@@ -175,6 +174,11 @@ impl Forces {
             record.outer_pushing[j] = other.pushing;
             [record.outer[j], record.outer_radial[j], record.outer_tangential[j]] = other.force;
         }
+    }
+
+    /// Angle (rad) by which element `j` is ahead of its position in a cage that turns evenly.
+    pub(crate) fn element_lead(&self, j: usize) -> f64 {
+        self.elements[j / WIDEST].lead[j % WIDEST]
     }
 
     /// The bearing's force on the inner ring (N).

@@ -9,6 +9,7 @@
 //! ```
 //! Outside δ is u, n is e_r and φ̇ the element's speed; there R and T point inwards and counter-clockwise.
 
+use super::shortcuts::Shortcuts;
 use crate::contact::error::ContactError;
 use crate::contact::law::{CompliantContact, SqueezeFilm};
 use crate::contact::near_defect::Approach;
@@ -160,12 +161,14 @@ impl Model {
         side: RacewaySide,
         at: &Meeting<T>,
         frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
     ) -> Result<Near<T>, ContactError> {
         if at.cells[1] != SMOOTH {
-            return self.near_own_defect(side, at, frames);
+            return self.near_own_defect(side, at, frames, shortcuts);
         }
         let defects = &self.raceway(side).defects;
-        let approach = defects.approach(at.cells[0], at.u, at.direction, frames, at.distance, at.curved)?;
+        let direction = at.direction - frames.of(defects.frame).angle;
+        let approach = defects.approach(at.cells[0], at.u, direction, at.distance, at.curved, &mut shortcuts.love)?;
         Ok(Near { approach, frame: defects.frame })
     }
 
@@ -175,11 +178,12 @@ impl Model {
         side: RacewaySide,
         at: &Meeting<T>,
         frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
     ) -> Near<T> {
         if at.cells == [SMOOTH; 2] {
             return Near::smooth(at.u);
         }
-        self.near(side, at, frames).unwrap_or(Near { approach: Approach::unsolved(), frame: Frame::Housing })
+        self.near(side, at, frames, shortcuts).unwrap_or(Near { approach: Approach::unsolved(), frame: Frame::Housing })
     }
 
     /// As [`Self::near`], of an element in a cell of its own defect.
@@ -189,17 +193,20 @@ impl Model {
         side: RacewaySide,
         at: &Meeting<T>,
         frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
     ) -> Result<Near<T>, ContactError> {
         let [ring, own] = at.cells;
         let defective = self.defective.iter().find(|defective| defective.element == at.element);
         let approach = defective.map_or(Ok(Approach::smooth(at.u)), |defective| {
-            defective.defects[side as usize].approach(own, at.u, at.direction, frames, at.distance, at.curved)
+            let defects = &defective.defects[side as usize];
+            let direction = at.direction - frames.of(defects.frame).angle;
+            defects.approach(own, at.u, direction, at.distance, at.curved, &mut shortcuts.love)
         })?;
         let own = Near { approach, frame: Frame::Spin };
         if ring == SMOOTH {
             return Ok(own);
         }
-        let ring = self.near(side, &Meeting { cells: [ring, SMOOTH], ..*at }, frames)?;
+        let ring = self.near(side, &Meeting { cells: [ring, SMOOTH], ..*at }, frames, shortcuts)?;
         Ok(if own.approach.value.value() < ring.approach.value.value() { own } else { ring })
     }
 

@@ -17,6 +17,7 @@
 
 use super::element_forces::{InnerPlace, OnElement, OuterPlace};
 use super::element_motion::{ElementMotion, ElementVariation};
+use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
 use crate::dynamics::parameters::{Frame, FramedKinematics, Frames, Model, PathMotion, SMOOTH, Turn};
 use crate::numerics::number::Dual;
@@ -143,9 +144,10 @@ impl Model {
         cells: [[u32; 2]; 2],
         [u, w]: [f64; 2],
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> Linearized {
-        let rate = w - now.housing.velocity.dot(&self.direction(j, &now.cage));
-        self.linearized_at(cells, &self.element_motion(j, PathMotion { path: u, rate }, now))
+        let at = self.element_motion(j, PathMotion::at_rest(u), now, shortcuts);
+        self.linearized_at(cells, &at.on_path(u, w - now.housing.velocity.dot(&at.e_r)), shortcuts)
     }
 
     /// The same at this motion.
@@ -153,8 +155,9 @@ impl Model {
         &self,
         cells: [[u32; 2]; 2],
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> Linearized<T> {
-        self.linearized_with([&self.inner.contact, &self.outer.contact], cells, at)
+        self.linearized_with([&self.inner.contact, &self.outer.contact], cells, at, shortcuts)
     }
 
     /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
@@ -163,18 +166,19 @@ impl Model {
         contacts: [&CompliantContact; 2],
         cells: [[u32; 2]; 2],
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> Linearized<T> {
         // Dry contacts on smooth raceways ask for the first directions only.
         let [inner, outer] = cells.map(|cells| cells == [SMOOTH; 2] && at.films.is_none());
         let (inner, n, distance) = if inner {
-            self.inner_to_first_order::<T, 4>(contacts[0], cells[0], at)
+            self.inner_to_first_order::<T, 4>(contacts[0], cells[0], at, shortcuts)
         } else {
-            self.inner_to_first_order::<T, INNER>(contacts[0], cells[0], at)
+            self.inner_to_first_order::<T, INNER>(contacts[0], cells[0], at, shortcuts)
         };
         let outer = if outer {
-            self.outer_to_first_order::<T, 2>(contacts[1], cells[1], at)
+            self.outer_to_first_order::<T, 2>(contacts[1], cells[1], at, shortcuts)
         } else {
-            self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at)
+            self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at, shortcuts)
         };
         Linearized { at: *at, rho: at.path + T::from(self.outer_centre_radius), inner, outer, n, distance }
     }
@@ -184,6 +188,7 @@ impl Model {
         contact: &CompliantContact,
         cells: [u32; 2],
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> (FirstOrder<T, INNER>, [T; 2], T) {
         let InnerPlace { element, rho, u, offset, q_rate, angle, frames, .. } = self.inner_place(cells, at);
         let (found, gap) = self.inner_contact::<Dual<T, K>>(
@@ -200,6 +205,7 @@ impl Model {
                 films: at.films.map(|films| films.following(seed(at.film_speed, 6))),
                 curved: at.curved,
             },
+            shortcuts,
         );
         (FirstOrder::of(found), gap.n.map(|n| n.value), gap.distance.value)
     }
@@ -209,6 +215,7 @@ impl Model {
         contact: &CompliantContact,
         cells: [u32; 2],
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> FirstOrder<T, OUTER> {
         let OuterPlace { element, u, path_rate, angle, omega, frames, .. } = self.outer_place(cells, at);
         let constant = Dual::<T, K>::constant;
@@ -225,6 +232,7 @@ impl Model {
                 films: at.films.map(|films| films.following(seed(at.film_speed, 4))),
                 curved: at.curved,
             },
+            shortcuts,
         ))
     }
 }

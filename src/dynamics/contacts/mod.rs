@@ -9,9 +9,11 @@ mod kernel;
 mod linearized;
 mod meetings;
 mod non_smooth_contacts;
+mod shortcuts;
 
 pub use contact_lanes::Record;
 pub use forces::{Forces, UnsolvedContact};
+pub use shortcuts::Shortcuts;
 
 pub(in crate::dynamics) use contact_lanes::Sums;
 pub(in crate::dynamics) use directions::{dot, radial};

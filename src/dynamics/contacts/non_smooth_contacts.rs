@@ -25,7 +25,8 @@ impl Model {
     ) -> Vector {
         let Forces { non_smooth_outer, non_smooth_contacts: [_, contacts], elements, torques, .. } = forces;
         let (frames, films) = (&forces.frames, forces.films.as_ref());
-        let (defect_lookups, unsolved) = (&mut forces.defect_lookups, &mut forces.unsolved);
+        let (defect_lookups, unsolved, shortcuts) =
+            (&mut forces.defect_lookups, &mut forces.unsolved, &mut forces.shortcuts);
         if RECORD {
             contacts.clear();
         }
@@ -34,7 +35,7 @@ impl Model {
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             let [angle, speed] = self.turning(j, now, sum.elements);
-            let meeting = self.outer_meeting_at(angle, j, cells, u);
+            let meeting = self.outer_meeting(angle, j, cells, u);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             if cells == [SMOOTH; 2] {
                 let near = Near::smooth(u);
@@ -42,7 +43,7 @@ impl Model {
                 sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
             } else {
                 *defect_lookups += 1;
-                let near = self.near(RacewaySide::Outer, &meeting, frames).unwrap_or_else(|cause| {
+                let near = self.near(RacewaySide::Outer, &meeting, frames, shortcuts).unwrap_or_else(|cause| {
                     self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                 });
                 let found = near.force(law, film, [path_rate, speed], frames);
@@ -62,9 +63,8 @@ impl Model {
         ahead: Option<f64>,
         elements: &[ElementBlock],
     ) -> OnPath {
-        let (block, i, cage) = (&elements[j / WIDEST], j % WIDEST, &now.cage);
-        let (sin, cos) = (block.sin[i], block.cos[i]);
-        let e_r = turned_by(cage.direction, sin, cos);
+        let (block, i) = (&elements[j / WIDEST], j % WIDEST);
+        let e_r = turned_by(now.cage.direction, block.sin[i], block.cos[i]);
         let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
         let u = moved(state[j], path_rate, ahead);
         OnPath { element: j, e_r, u, path_rate, inverse_mass: self.inverse_element_mass }
@@ -90,7 +90,7 @@ impl Model {
         let mut on_shaft = Vector::zeros();
         let Forces { non_smooth_inner, non_smooth_outer, non_smooth_contacts: [contacts, _], elements, .. } = forces;
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
-        let (frames, films) = (&forces.frames, forces.films.as_ref());
+        let (frames, films, shortcuts) = (&forces.frames, forces.films.as_ref(), &mut forces.shortcuts);
         let clearance = self.clearance(films);
         let (law, film) = (&self.inner.contact, films.map(|films| &films.squeeze[RacewaySide::Inner as usize]));
         if RECORD {
@@ -103,7 +103,7 @@ impl Model {
             let gap = self.inner_gap(u, now.offset(), e_r, clearance);
             let at = self.inner_meeting(j, cells, &gap, angle);
             let near = self
-                .near(RacewaySide::Inner, &at, frames)
+                .near(RacewaySide::Inner, &at, frames, shortcuts)
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
             let around = (self.outer_centre_radius + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];

@@ -13,12 +13,14 @@
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
     BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, PathMotion, RingState,
     prescribed_rate,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
+use crate::numerics::lanes::row::Row;
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion};
 
@@ -70,6 +72,8 @@ pub struct Jacobian {
     pub by_position: BodyMatrix,
     /// Accelerations of the bodies by their velocities (1/s).
     pub by_velocity: BodyMatrix,
+    /// Derivative of the right-hand side by time at constant state.
+    pub by_time: Row,
     /// Where each body is in the state; `None` for a body without state, whose rows and columns count for nothing.
     pub body_indices: [Option<BodyIndices>; BODIES],
     /// Where the elements' velocities begin in the state.
@@ -85,6 +89,7 @@ impl Jacobian {
             elements: vec![ElementBlock::default(); elements],
             by_position: BodyMatrix::zeros(size, size),
             by_velocity: BodyMatrix::zeros(size, size),
+            by_time: Row::zeros(model.layout.len),
             body_indices: body_indices(&model.layout),
             radial_velocity: model.layout.radial_velocity,
         }
@@ -97,6 +102,7 @@ impl Jacobian {
             elements: vec![ElementBlock { by_velocity: -rate, ..ElementBlock::default() }],
             by_position: BodyMatrix::zeros(0, 0),
             by_velocity: BodyMatrix::zeros(0, 0),
+            by_time: Row::zeros(0),
             body_indices: [None; BODIES],
             radial_velocity: 1,
         }
@@ -203,7 +209,7 @@ struct Shared {
 }
 
 impl Model {
-    /// The Jacobian at `tau`, and the derivative of the right-hand side by time at constant state.
+    /// The Jacobian at `tau`.
     pub fn linearize(
         &self,
         excitation: &Excitation,
@@ -211,7 +217,7 @@ impl Model {
         cells: &Cells,
         state: &[f64],
         jacobian: &mut Jacobian,
-        by_time: &mut [f64],
+        shortcuts: &mut Shortcuts,
     ) {
         let start = self.layout.radial_velocity;
         let host = |motion: Motion, prescribed| {
@@ -224,14 +230,15 @@ impl Model {
             frames: excitation.frame_rates(tau),
             film_rate: excitation.relative_speed.rate_at(tau),
         };
-        self.add_supports(excitation, tau, &shared, jacobian, by_time);
+        self.add_supports(excitation, tau, &shared, jacobian);
         if self.elements_in_balance() {
-            return self.add_elements_in_balance(cells, state, &shared, jacobian);
+            return self.add_elements_in_balance(cells, state, &shared, jacobian, shortcuts);
         }
         for j in 0..self.element_count {
-            let element = self.linearized(j, self.cells_of(cells, j), [state[j], state[start + j]], &shared.now);
+            let motion = [state[j], state[start + j]];
+            let element = self.linearized(j, self.cells_of(cells, j), motion, &shared.now, shortcuts);
             self.add_element(j, &element, &shared, jacobian);
-            self.add_element_by_time(j, &element, &shared, &jacobian.body_indices, by_time);
+            self.add_element_by_time(j, &element, &shared, jacobian);
         }
     }
 
@@ -239,11 +246,18 @@ impl Model {
     /// tangent, exact; by velocities what dampers hand on. That damping
     /// changes as rings move, by χ δ̇ of the tangent, is left out, and so is what elements make of the derivative by
     /// time: it is for the stability of explicit steps, and at rest, for the modes, there is none of either.
-    fn add_elements_in_balance(&self, cells: &Cells, state: &[f64], shared: &Shared, jacobian: &mut Jacobian) {
+    fn add_elements_in_balance(
+        &self,
+        cells: &Cells,
+        state: &[f64],
+        shared: &Shared,
+        jacobian: &mut Jacobian,
+        shortcuts: &mut Shortcuts,
+    ) {
         let (mut by_position, mut by_velocity) = (RingJacobian::zeros(), RingJacobian::zeros());
         for j in 0..self.element_count {
-            let at = self.element_motion(j, PathMotion::at_rest(state[j]), &shared.now);
-            let found = self.in_balance(self.cells_of(cells, j), state[j], &at);
+            let at = self.element_motion(j, PathMotion::at_rest(state[j]), &shared.now, shortcuts);
+            let found = self.in_balance(self.cells_of(cells, j), state[j], &at, shortcuts);
             self.add_balanced(&found.elastic, &mut by_position);
             for axis in 0..2 {
                 let rings = self.damped_by_drift(&found, axis);
@@ -294,18 +308,11 @@ impl Model {
     }
 
     /// One element's part of the derivative by time.
-    fn add_element_by_time(
-        &self,
-        j: usize,
-        element: &Linearized,
-        shared: &Shared,
-        body_indices: &[Option<BodyIndices>; BODIES],
-        by_time: &mut [f64],
-    ) {
-        let Linearized { at: ElementMotion { e_r, e_t, omega, .. }, rho, inner, outer, .. } = *element;
+    fn add_element_by_time(&self, j: usize, element: &Linearized, shared: &Shared, jacobian: &mut Jacobian) {
+        let Jacobian { by_time, body_indices, .. } = jacobian;
+        let Linearized { at: ElementMotion { e_r, e_t, omega, alpha, .. }, rho, inner, outer, .. } = *element;
         let (now, [shaft, housing]) = (&shared.now, &shared.prescribed);
         let v = now.housing.velocity;
-        let [_, alpha] = self.element_speed(j, &now.cage);
         let path_rate = -omega * v.dot(&e_t) - housing.velocity.dot(&e_r);
         let with_time = element.change(&ElementVariation {
             offset: housing.position - shaft.position,
@@ -332,19 +339,12 @@ impl Model {
         }
     }
 
-    /// Starts `jacobian` and `by_time` with what does not come from contacts: supports, sensor, loads.
-    fn add_supports(
-        &self,
-        excitation: &Excitation,
-        tau: f64,
-        shared: &Shared,
-        jacobian: &mut Jacobian,
-        by_time: &mut [f64],
-    ) {
+    /// Starts `jacobian` with what does not come from contacts: supports, sensor, loads.
+    fn add_supports(&self, excitation: &Excitation, tau: f64, shared: &Shared, jacobian: &mut Jacobian) {
         let [by_position, by_velocity] = self.supports.accelerations_by_motion();
         jacobian.by_position.copy_from(by_position);
         jacobian.by_velocity.copy_from(by_velocity);
-        by_time[2 * self.layout.radial_velocity..].fill(0.0);
+        jacobian.by_time[2 * self.layout.radial_velocity..].fill(0.0);
         // Prescribed rings move the sensor; on the rings themselves nothing but their loads depends on time.
         let [shaft, housing] = &shared.prescribed;
         let moves = Kinematics { shaft: *shaft, housing: *housing, ..*shared.now };
@@ -355,7 +355,7 @@ impl Model {
         let rates = forces.component_mul(&self.supports.inverse_masses());
         for (body, rate) in jacobian.body_indices.iter().zip(&rates) {
             if let Some(BodyIndices { velocity, .. }) = *body {
-                by_time[velocity] = *rate;
+                jacobian.by_time[velocity] = *rate;
             }
         }
     }

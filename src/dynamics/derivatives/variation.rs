@@ -8,6 +8,7 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
 use crate::dynamics::parameters::{
     CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
@@ -109,19 +110,20 @@ pub(in crate::dynamics) struct Going {
     alpha: f64,
 }
 
-impl Model {
-    /// How element `j` goes round as the nominal cage's angle and speed change.
-    pub(in crate::dynamics) fn going(&self, j: usize, cage: &CageState, by: &Variation) -> Going {
-        let Lead { rate, second, third, .. } = self.lead(j, cage);
+impl Going {
+    /// Of an element that is so far ahead as the nominal cage's angle and speed change.
+    pub(in crate::dynamics) fn of(Lead { rate, second, third, .. }: Lead, cage: &CageState, by: &Variation) -> Self {
         let (omega, share) = (cage.speed, 1.0 + rate);
-        Going {
+        Self {
             turn: share * by.cage_angle,
             speed: share * by.cage_speed + second * omega * by.cage_angle,
             alpha: (cage.acceleration * second + omega * omega * third) * by.cage_angle
                 + 2.0 * omega * second * by.cage_speed,
         }
     }
+}
 
+impl Model {
     /// What element `j`, at path and absolute radial velocity of the state, meets as all that changes.
     fn changing_motion(
         &self,
@@ -129,10 +131,12 @@ impl Model {
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
+        shortcuts: &mut Shortcuts,
     ) -> ElementMotion<Changing> {
         let w = state[self.layout.radial_velocity + j];
-        let at = self.element_motion(j, PathMotion { path: state[j], rate: 0.0 }, now);
-        let Going { turn, speed, alpha } = self.going(j, &now.cage, by);
+        let at = self.element_motion(j, PathMotion { path: state[j], rate: 0.0 }, now, shortcuts);
+        let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
+        let Going { turn, speed, alpha } = Going::of(lead, &now.cage, by);
         let frames = [0, 1, 2].map(|i| {
             let (Turn { angle, speed }, [d_angle, d_speed]) = (at.frames.0[i], by.frames[i]);
             Turn { angle: changing(angle, d_angle), speed: changing(speed, d_speed) }
@@ -157,22 +161,22 @@ impl Model {
         }
     }
 
-    /// Change of the contact forces under `excitation` at τ = 0 for a small change. `acceleration` is the outer ring's.
-    /// Of elements in balance it puts the change of their paths into `by`.
+    /// Change of the contact forces under `excitation` at τ = 0 for a small change `by`. `acceleration` is the outer
+    /// ring's. Of elements in balance it puts the change of their paths into `by`.
     pub fn vary(
         &self,
         excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
         acceleration: Vector,
-        by: &mut Variation,
-        change: &mut ForceChange,
+        (by, change): (&mut Variation, &mut ForceChange),
+        shortcuts: &mut Shortcuts,
     ) {
         let now = self.kinematics(excitation, 0.0, state);
         let mut rings = Rings::zeros();
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
-            let forces = self.changing_forces(j, cells, state, &now, by);
+            let forces = self.changing_forces((j, cells), state, &now, by, shortcuts);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
             let around = forces.inner.y + forces.outer.y;
@@ -200,17 +204,17 @@ impl Model {
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.
     fn changing_forces(
         &self,
-        j: usize,
-        cells: &Cells,
+        (j, cells): (usize, &Cells),
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
+        shortcuts: &mut Shortcuts,
     ) -> ElementForces<Changing> {
-        let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by));
+        let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by, shortcuts));
         if self.elements_in_balance() {
-            self.in_balance(cells, state[j], &at).forces()
+            self.in_balance(cells, state[j], &at, shortcuts).forces()
         } else {
-            self.element_forces(cells, &at)
+            self.element_forces(cells, &at, shortcuts)
         }
     }
 
@@ -222,10 +226,12 @@ impl Model {
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
+        shortcuts: &mut Shortcuts,
     ) -> Option<()> {
         let now = self.kinematics(excitation, 0.0, state);
-        let change = |by: &Variation| -> Rings {
-            (0..self.element_count).map(|j| on_rings(&self.changing_forces(j, cells, state, &now, by))).sum()
+        let mut change = |by: &Variation| -> Rings {
+            let elements = 0..self.element_count;
+            elements.map(|j| on_rings(&self.changing_forces((j, cells), state, &now, by, shortcuts))).sum()
         };
         let force = loads + change(by);
         let mut jacobian = RingJacobian::zeros();
@@ -242,12 +248,19 @@ impl Model {
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block (N/m), for
     /// a small change at the instant τ = 0 of `excitation`.
-    pub fn vary_stiffness(&self, excitation: &Excitation, cells: &Cells, state: &[f64], by: &Variation) -> Matrix {
+    pub fn vary_stiffness(
+        &self,
+        excitation: &Excitation,
+        cells: &Cells,
+        state: &[f64],
+        by: &Variation,
+        shortcuts: &mut Shortcuts,
+    ) -> Matrix {
         let now = self.kinematics(excitation, 0.0, state);
         let mut jacobian = RingJacobian::<Changing>::zeros();
         for j in 0..self.element_count {
-            let at = self.changing_motion(j, state, &now, by).standing();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at), &mut jacobian);
+            let at = self.changing_motion(j, state, &now, by, shortcuts).standing();
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
         }
         Matrix::from_fn(|row, column| jacobian[(row, column)].by[0])
     }

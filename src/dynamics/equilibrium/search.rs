@@ -20,10 +20,9 @@
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{Linearized, Meeting};
-use crate::dynamics::parameters::{
-    Cells, Excitation, FramedKinematics, Kinematics, Model, PathMotion, Quadratic, SMOOTH,
-};
+use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting};
+use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
 use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
 
@@ -55,33 +54,35 @@ impl Model {
         cells: &Cells,
         state: &mut [f64],
     ) -> Result<(), EquilibriumError> {
+        let shortcuts = &mut Shortcuts::default();
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
         let given = Given { excitation, cells, still: self.kinematics(excitation, 0.0, state) };
         let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
-        let mut balance = self.balance(&given, rings, &mut u);
+        let mut balance = self.balance(&given, rings, &mut u, shortcuts);
         let mut iteration = 0;
         // An element without a balance where the rings are to begin with is told by the checks below.
         while balance.residual() > balance.limit && balance.residual().is_finite() {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, &balance, iteration);
-            let next = self.along(&given, rings, &mut u, &balance, step).filter(|_| iteration <= ITERATIONS);
+            let step = self.newton_step(&given, rings, &u, (&balance, iteration), shortcuts);
+            let next =
+                self.along(&given, (rings, step), &mut u, &balance, shortcuts).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 if balance.residual() <= balance.rounding {
                     // As near as roundings let it come: back to the paths of these rings.
-                    self.balance(&given, rings, &mut u);
+                    self.balance(&given, rings, &mut u, shortcuts);
                     break;
                 }
                 // A step that cannot be taken may end where a contact has no answer.
                 let tried = rings + step;
-                self.balance(&given, tried, &mut u);
-                self.check_contacts(&given, tried, &u)?;
+                self.balance(&given, tried, &mut u, shortcuts);
+                self.check_contacts(&given, tried, &u, shortcuts)?;
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
         }
-        self.check_contacts(&given, rings, &u)?;
-        self.check_elements(&given, rings, &mut u)?;
+        self.check_contacts(&given, rings, &u, shortcuts)?;
+        self.check_elements(&given, rings, &mut u, shortcuts)?;
         self.write(excitation, rings, &u, state);
         Ok(())
     }
@@ -117,13 +118,17 @@ impl Model {
         cells: [[u32; 2]; 2],
         guess: f64,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> ElementAtRest {
-        let at = self.element_motion(j, PathMotion::at_rest(guess), now).searched();
-        let element = |u: f64| {
-            let element = self.linearized_at(cells, &at.on_path(u, 0.0));
+        let at = self.element_motion(j, PathMotion::at_rest(guess), now, shortcuts).searched();
+        let touch = match cells[1] {
+            [SMOOTH, SMOOTH] => 0.0,
+            cells => self.touching_path(j, cells, at.angle, &at.frames, shortcuts),
+        };
+        let mut element = |u: f64| {
+            let element = self.linearized_at(cells, &at.on_path(u, 0.0), shortcuts);
             (self.radial_push(&element), element)
         };
-        let touch = if cells[1] == [SMOOTH; 2] { 0.0 } else { self.touching_path(j, cells[1], at.angle, &at.frames) };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);
         if at_touch == 0.0 {
             return ElementAtRest { path: touch, element: touching, nearer: None };
@@ -165,21 +170,27 @@ impl Model {
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
     /// there.
-    fn check_contacts(&self, given: &Given, rings: Rings, u: &[f64]) -> Result<(), EquilibriumError> {
+    fn check_contacts(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &[f64],
+        shortcuts: &mut Shortcuts,
+    ) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
-        let clearance = self.clearance(now.films.as_ref());
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let gap = self.inner_gap(u - FURTHER, now.offset(), self.direction(j, &now.cage), clearance);
-            let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
-            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(j, cells[1], u, &now.cage) };
+            let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(u), &now, shortcuts);
+            let gap = self.inner_gap(u - FURTHER, now.offset(), e_r, self.clearance(now.films.as_ref()));
+            let inner = self.inner_meeting(j, cells[0], &gap, angle);
+            let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(angle, j, cells[1], u) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {
                 if at.cells == [SMOOTH; 2] {
                     continue;
                 }
-                let Err(cause) = self.near(side, &at, &now.frames) else { continue };
+                let Err(cause) = self.near(side, &at, &now.frames, shortcuts) else { continue };
                 // The search may have ended on the far side, where all is NaN.
-                let element = self.at_rest(j, cells, u - FURTHER, &now);
+                let element = self.at_rest(j, cells, u - FURTHER, &now, shortcuts);
                 let residual = self.radial_balance(&element).force;
                 if !(residual.abs() <= UNBALANCED * element.inner.force.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
@@ -192,14 +203,20 @@ impl Model {
 
     /// Refuses a balance of the rings in which an element has none: the search for its path ends wherever it got to. Of
     /// two paths between which a balance lies, takes the one at which less force is left.
-    fn check_elements(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Result<(), EquilibriumError> {
+    fn check_elements(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &mut [f64],
+        shortcuts: &mut Shortcuts,
+    ) -> Result<(), EquilibriumError> {
         let now = given.with_rings(rings);
         for (j, path) in u.iter_mut().enumerate() {
             let cells = self.cells_of(given.cells, j);
-            let element = self.at_rest(j, cells, *path, &now);
+            let element = self.at_rest(j, cells, *path, &now, shortcuts);
             let RadialForce { force, slope } = self.radial_balance(&element);
             let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
-            let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now).nearer).flatten();
+            let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now, shortcuts).nearer).flatten();
             *path = nearer.unwrap_or(*path);
             let is_balanced = nearer.is_some() || force.abs() <= self.no_force_at(&element, slope);
             if !(is_balanced && path.abs() <= self.element_radius) {
@@ -210,7 +227,7 @@ impl Model {
     }
 
     /// Balances all elements for given rings and sums the forces on the rings.
-    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64]) -> Balance {
+    fn balance(&self, given: &Given, rings: Rings, u: &mut [f64], shortcuts: &mut Shortcuts) -> Balance {
         let Given { excitation, cells, .. } = given;
         let now = given.with_rings(rings);
         let (mut force, mut largest, mut contact_sum, mut rounding) = (Rings::zeros(), 0.0f64, 0.0, 0.0);
@@ -218,12 +235,13 @@ impl Model {
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
-                let found = self.in_balance(in_cells, u[j], &self.element_motion(j, PathMotion::at_rest(u[j]), &now));
+                let at = self.element_motion(j, PathMotion::at_rest(u[j]), &now, shortcuts);
+                let found = self.in_balance(in_cells, u[j], &at, shortcuts);
                 let [shaft, housing] = found.forces().on_rings();
                 force += stacked(shaft, housing);
                 ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
-                let found = self.balanced_element(j, in_cells, u[j], &now);
+                let found = self.balanced_element(j, in_cells, u[j], &now, shortcuts);
                 let element = &found.element;
                 let (inner, outer) = (element.inner.force, element.outer.force);
                 force += stacked(element.at.on_shaft(inner), element.at.on_housing(outer));
@@ -247,14 +265,21 @@ impl Model {
     }
 
     /// A step of the free rings from the condensed tangent: (−J + μ) step = force.
-    fn newton_step(&self, given: &Given, rings: Rings, u: &[f64], balance: &Balance, iteration: i32) -> Rings {
+    fn newton_step(
+        &self,
+        given: &Given,
+        rings: Rings,
+        u: &[f64],
+        (balance, iteration): (&Balance, i32),
+        shortcuts: &mut Shortcuts,
+    ) -> Rings {
         let now = given.with_rings(rings);
         // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
         // tangent is far too stiff.
         let jacobian = if iteration > DOUBLING {
-            self.ring_jacobian_at(u, given.cells, &now)
+            self.ring_jacobian_at(u, given.cells, &now, shortcuts)
         } else {
-            self.ring_jacobian_at(u, given.cells, &now.standing())
+            self.ring_jacobian_at(u, given.cells, &now.standing(), shortcuts)
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.
@@ -282,17 +307,17 @@ impl Model {
     fn along(
         &self,
         given: &Given,
-        rings: Rings,
+        (rings, step): (Rings, Rings),
         u: &mut [f64],
         start: &Balance,
-        step: Rings,
+        shortcuts: &mut Shortcuts,
     ) -> Option<(Rings, Balance)> {
         let push_0 = start.force.dot(&step);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut share = 1.0;
         for _ in 0..100 {
             let next = rings + step * share;
-            let balance = self.balance(given, next, u);
+            let balance = self.balance(given, next, u, shortcuts);
             let push = balance.force.dot(&step);
             if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
                 return Some((next, balance));
@@ -316,13 +341,13 @@ impl Model {
             }
         }
         // At rest against the outer ring: u' = 0.
-        let Kinematics { cage, housing, .. } = self.kinematics(excitation, 0.0, state).motion;
+        let now = self.kinematics(excitation, 0.0, state);
         for j in 0..self.element_count {
-            state[w + j] = housing.velocity.dot(&self.direction(j, &cage));
+            state[w + j] = now.housing.velocity.dot(&self.direction(j, &now));
         }
         for (sensor, i) in self.supports.sensors.iter().zip(self.layout.sensor_indices()) {
             let e = sensor.direction;
-            (state[i], state[i + 1]) = (housing.position.dot(&e), housing.velocity.dot(&e));
+            (state[i], state[i + 1]) = (now.housing.position.dot(&e), now.housing.velocity.dot(&e));
         }
     }
 }

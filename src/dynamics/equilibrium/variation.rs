@@ -7,8 +7,9 @@
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
-use crate::dynamics::derivatives::Variation;
+use crate::dynamics::derivatives::variation::{Going, Variation};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
@@ -23,9 +24,10 @@ impl Model {
         state: &[f64],
         loads: Rings,
         by: &mut Variation,
+        shortcuts: &mut Shortcuts,
     ) -> Option<()> {
         if self.elements_in_balance() {
-            return self.vary_equilibrium_in_balance(excitation, cells, state, loads, by);
+            return self.vary_equilibrium_in_balance(excitation, cells, state, loads, by, shortcuts);
         }
         let now = self.kinematics(excitation, 0.0, state);
         let given = ElementVariation {
@@ -38,18 +40,18 @@ impl Model {
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
         // In an uneven cage each element goes round at its own speed.
         let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
-            speed: self.going(j, &now.cage, by).speed,
+            speed: Going::of(self.lead(j, now.cage_angle()), &now.cage, by).speed,
             ..given
         };
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells, state, &now);
+            let element = self.at_start(j, cells, state, &now, shortcuts);
             self.add_balanced(&element, &mut jacobian);
             force += self.balanced(&element, &own(j, given, by)).rings;
         }
         by.move_rings(&self.balancing_motion(&jacobian, force)?);
         let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
-            let element = self.at_start(j, cells, state, &now);
+            let element = self.at_start(j, cells, state, &now, shortcuts);
             by.path[j] = self.balanced(&element, &own(j, whole, by)).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.at.e_r);
         }
@@ -57,13 +59,20 @@ impl Model {
     }
 
     /// An element at the start; of one whose balance lies between two paths, at the path at which more touches it.
-    fn at_start(&self, j: usize, cells: &Cells, state: &[f64], now: &FramedKinematics) -> Linearized {
+    fn at_start(
+        &self,
+        j: usize,
+        cells: &Cells,
+        state: &[f64],
+        now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
+    ) -> Linearized {
         let (cells, path) = (self.cells_of(cells, j), state[j]);
-        let element = self.at_rest(j, cells, path, now);
+        let element = self.at_rest(j, cells, path, now, shortcuts);
         if self.radial_balance(&element).force.abs() <= self.no_force(&element) {
             return element;
         }
-        let found = self.balanced_element(j, cells, path, now);
-        if found.nearer.is_some() { self.at_rest(j, cells, found.path, now) } else { element }
+        let found = self.balanced_element(j, cells, path, now, shortcuts);
+        if found.nearer.is_some() { self.at_rest(j, cells, found.path, now, shortcuts) } else { element }
     }
 }

@@ -22,8 +22,8 @@ impl Model {
         forces: &mut Forces,
     ) {
         let Stage { excitation, cage, .. } = *stage;
-        self.begin(excitation);
-        self.update_uneven(excitation, cage, &mut forces.elements);
+        let angle = excitation.cage_angle_of(cage);
+        forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
         let mut rings =
@@ -48,21 +48,22 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) -> [f64; 4] {
-        let now = FramedKinematics { motion: *now, frames: forces.frames, films: None };
+        let now =
+            FramedKinematics { motion: *now, turns: stage.excitation.cage_turns, frames: forces.frames, films: None };
         let mut rings = [Vector::zeros(); 2];
         if RECORD {
             forces.torques = [0.0; 3];
         }
         for i in 0..forces.searched.len() {
             let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
-            let e_r = self.direction(j, &now.cage);
-            let along = now.housing.velocity.dot(&e_r);
+            let at = self.element_motion(j, PathMotion::at_rest(0.0), &now, &mut forces.shortcuts);
+            let along = now.housing.velocity.dot(&at.e_r);
             let guess = moved(stage.state[j], stage.state[self.layout.radial_velocity + j] - along, stage.ahead);
-            let found = self.in_balance(cells, guess, &self.element_motion(j, PathMotion::at_rest(guess), &now));
+            let found = self.in_balance(cells, guess, &at, &mut forces.shortcuts);
             forces.defect_lookups +=
                 found.evaluations * cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             if !found.is_found()
-                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now)
+                && let Some(unsolved) = self.contact_without_answer(j, cells, found.path, &now, &mut forces.shortcuts)
             {
                 forces.unsolved = Some(unsolved);
             }

@@ -7,7 +7,7 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
-use crate::dynamics::parameters::{CageState, Excitation, Model};
+use crate::dynamics::parameters::{CageState, Excitation, LeadPieces, Model};
 use crate::numerics::plane::turned;
 use crate::numerics::polynomials::Quintic;
 
@@ -21,18 +21,17 @@ pub(crate) struct Known<'a> {
 
 impl Model {
     /// State at `share` of the time `h` (s) from the first to the second instant, where the cage is as `cage` says,
-    /// into `out`.
+    /// into `out`; `pieces` are those of an uneven cage.
     #[inline(always)]
     pub(crate) fn dense_output(
         &self,
         excitation: &Excitation,
         ends: [Known; 2],
-        h: f64,
-        share: f64,
+        [h, share]: [f64; 2],
         cage: &CageState,
+        pieces: &mut LeadPieces,
         out: &mut [f64],
     ) {
-        self.begin(excitation);
         let layout = &self.layout;
         let basis = Quintic::new(h, share);
         let value = |i: usize| ends.map(|end| end.state[i]);
@@ -49,13 +48,15 @@ impl Model {
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
             let second = [0, 1].map(|k| {
-                let (e_r, cage) = (self.direction(j, &ends[k].cage), &ends[k].cage);
-                let [speed, _] = self.element_speed(j, cage);
+                let cage = &ends[k].cage;
+                let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
+                let (e_r, [speed, _]) = (self.direction_with(j, cage, &lead), lead.speed(cage));
                 ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
             });
             let (path, path_rate) = basis.at(value(j), rate(j), second);
             out[j] = path;
-            out[w + j] = path_rate + self.direction(j, cage).dot(&velocity);
+            let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
+            out[w + j] = path_rate + self.direction_with(j, cage, &lead).dot(&velocity);
         }
     }
 }
@@ -109,7 +110,8 @@ mod tests {
             let ends = [known(&state[..], &rates[0][..], 0.0), known(&end, &rates[1], h)];
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
-                model.dense_output(&excitation, ends, h, share, &excitation.cage_at(share * h), &mut found);
+                let cage = excitation.cage_at(share * h);
+                model.dense_output(&excitation, ends, [h, share], &cage, &mut forces.shortcuts.leads, &mut found);
                 let expected = integrated(&model, &excitation, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

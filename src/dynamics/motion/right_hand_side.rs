@@ -17,8 +17,8 @@
 
 use crate::dynamics::contacts::{Forces, NonSmoothOuter};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
-use crate::numerics::lanes::{Kernel, Lanes, Wide, dispatch};
-use crate::numerics::plane::{Vector, turned};
+use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
+use crate::numerics::plane::{Vector, turned, turned_by};
 
 impl Model {
     /// Derivative of `state` at `tau`, and each contact; `cells` says in which cell each contact is.
@@ -69,8 +69,8 @@ impl Model {
     ) {
         let Stage { excitation, cage, state, ahead } = *stage;
         if UNEVEN_OR_OILED {
-            self.begin(excitation);
-            self.update_uneven(excitation, cage, &mut forces.elements);
+            let angle = excitation.cage_angle_of(cage);
+            forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
             if let Some(films) = &self.films {
                 films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
             }
@@ -129,11 +129,16 @@ impl Model {
         acceleration: Vector,
         forces: &Forces,
     ) -> f64 {
-        self.begin(excitation);
-        let (cage, contacts, paths) = (excitation.cage_at(tau), &forces.contacts, forces.paths(self, state));
+        let (cage, contacts) = (excitation.cage_at(tau), &forces.contacts);
+        let paths = contacts.paths(self, state);
         let of_paths: f64 = (0..self.element_count)
             .map(|j| {
-                let (e_t, turning) = (turned(self.direction(j, &cage)), self.element_speed(j, &cage));
+                let (block, i) = (&forces.elements[j / WIDEST], j % WIDEST);
+                let e_t = turned(turned_by(cage.direction, block.sin[i], block.cos[i]));
+                let turning = [
+                    cage.speed * block.pace[i],
+                    cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i],
+                ];
                 let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
                 self.torque_on_cage(e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
             })

@@ -105,7 +105,7 @@ pub struct Turning {
 pub struct WholeAngle {
     /// Whole turns.
     pub turns: i64,
-    /// The rest (rad), in [−π, π].
+    /// The rest (rad), in [−π, π] at communication points.
     pub rest: f64,
 }
 
@@ -113,6 +113,11 @@ impl WholeAngle {
     /// From an angle (rad).
     pub fn new(angle: f64) -> Self {
         Self::default().advanced(angle)
+    }
+
+    /// An angle (rad) that is none of whole turns, however large.
+    pub fn in_first_turn(rest: f64) -> Self {
+        Self { turns: 0, rest }
     }
 
     /// This angle further by `angle` (rad).

@@ -14,12 +14,11 @@
 //! what integration leaves, so steps do not end there.
 
 use super::element_block::ElementBlock;
+use super::excitation::WholeAngle;
 use super::kinematics::CageState;
 use crate::numerics::counter_noise::gaussian;
 use crate::numerics::lanes::WIDEST;
-use crate::numerics::sin_cos;
 use crate::scene::CageIrregularity;
-use std::cell::{Cell, Ref, RefCell};
 use std::f64::consts::TAU;
 
 /// Knots of the jitter in one turn are as many as elements; those of the wander are so many turns apart.
@@ -39,12 +38,9 @@ pub struct Irregularity {
     jitter: f64,
     /// That of the wander's (rad); 0 for none.
     wander: f64,
+    /// What the wander's spline is at the start (rad).
+    first: f64,
     count: usize,
-    /// Whole turns of the cage at the communication point. Kept here beside the excitation, which has them: with one
-    /// number more in the cage's state at an instant, bearings whose outer raceway yields took a fifth longer.
-    turns: Cell<i64>,
-    /// The polynomials of the intervals evaluated last: nothing but a shortcut.
-    pieces: RefCell<Pieces>,
 }
 
 /// An element's angle ahead of its position in an even cage that turns evenly, and its derivatives by the nominal cage
@@ -61,15 +57,23 @@ pub struct Lead {
     pub third: f64,
 }
 
-/// Cubic polynomials of the present intervals.
+/// Cubic polynomials of the intervals that were evaluated last: nothing but a shortcut for those who ask often.
 #[derive(Debug, Clone, Default)]
-struct Pieces {
-    /// Interval of the jitter, and one polynomial for each element.
-    jitter: Option<i64>,
+pub struct LeadPieces {
+    /// Where they are those of the jitter, and one for each element.
+    jitter: Option<PieceKey>,
     of_elements: Vec<[f64; 4]>,
-    /// Interval of the wander.
-    wander: Option<i64>,
+    /// Where it is that of the wander.
+    wander: Option<PieceKey>,
     of_cage: [f64; 4],
+}
+
+/// What a polynomial follows from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PieceKey {
+    seed: u64,
+    deviation: f64,
+    interval: i64,
 }
 
 /// A position among evenly spaced knots.
@@ -111,6 +115,22 @@ impl std::ops::Add for Lead {
     }
 }
 
+impl Lead {
+    /// Speed (rad/s) and acceleration (rad/s²) of what is so far ahead of the nominal cage.
+    #[inline]
+    pub fn speed(&self, cage: &CageState) -> [f64; 2] {
+        let Self { rate, second, .. } = *self;
+        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * second]
+    }
+}
+
+impl LeadPieces {
+    /// Room for `count` elements.
+    pub(in crate::dynamics) fn new(count: usize) -> Self {
+        Self { of_elements: vec![[0.0; 4]; count], ..Self::default() }
+    }
+}
+
 impl Irregularity {
     /// The moving part of a scene's irregularity for `count` elements, the cage being at `start` (rad) at the start;
     /// `None` where nothing moves.
@@ -119,121 +139,126 @@ impl Irregularity {
             return None;
         }
         let pitch = WANDER_TURNS * TAU;
-        Some(Self {
+        let mut uneven = Self {
             seed: cage.seed,
             start,
             jitter: cage.jitter / MEAN_SQUARE.sqrt(),
             wander: cage.wander * pitch / MEAN_SQUARE_OF_RATE.sqrt(),
+            first: 0.0,
             count,
-            turns: Cell::new(0),
-            pieces: RefCell::new(Pieces { of_elements: vec![[0.0; 4]; count], ..Pieces::default() }),
-        })
+        };
+        uneven.first = uneven.piece(NoiseSeries::Wander, 0, uneven.wander)[0];
+        Some(uneven)
     }
 
-    /// What is asked from now on is of a communication step that begins after so many whole turns.
-    pub fn begin(&self, turns: i64) {
-        self.turns.set(turns);
-    }
-
-    /// Lead of element `j` at an instant of the nominal cage.
+    /// Lead of element `j` at an angle of the nominal cage.
     ///
     /// Out of the way of even cages, as all that asks for it is.
     #[cold]
-    pub fn of_element(&self, j: usize, cage: &CageState) -> Lead {
+    pub fn of_element(&self, j: usize, cage: WholeAngle) -> Lead {
         let common = self.of_cage(cage);
         if self.jitter == 0.0 {
             return common;
         }
-        let (pieces, share) = self.jitters(cage);
+        let KnotPosition { interval, share } = self.knot_position(cage, self.count as f64);
+        common + evaluated(&self.piece(NoiseSeries::Jitter(j), interval, self.jitter), share, self.count as f64 / TAU)
+    }
+
+    /// The same with `pieces` at hand.
+    #[cold]
+    pub(super) fn of_element_with(&self, j: usize, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
+        let common = self.of_cage_with(cage, pieces);
+        if self.jitter == 0.0 {
+            return common;
+        }
+        let share = self.jitters(cage, pieces);
         common + evaluated(&pieces.of_elements[j], share, self.count as f64 / TAU)
     }
 
-    /// Puts what all elements are ahead at an instant of the nominal cage, and how fast they go, into `elements`.
+    /// Puts what all elements are ahead at an angle of the nominal cage, and how fast they go, into `elements`; gives
+    /// the lead of the cage itself.
     #[inline(always)]
-    pub(super) fn update_all(&self, cage: &CageState, elements: &mut [ElementBlock]) {
-        let common = self.of_cage(cage);
+    pub(super) fn update_all(&self, cage: WholeAngle, elements: &mut [ElementBlock], pieces: &mut LeadPieces) -> Lead {
+        let common = self.of_cage_with(cage, pieces);
         if self.jitter == 0.0 {
             for block in elements {
                 (block.lead, block.pace) = ([common.angle; WIDEST], [1.0 + common.rate; WIDEST]);
                 block.pace_by_angle = [common.second; WIDEST];
             }
-            return;
+            return common;
         }
-        let (pieces, share) = self.jitters(cage);
+        let share = self.jitters(cage, pieces);
         for (block, pieces) in elements.iter_mut().zip(pieces.of_elements.chunks(WIDEST)) {
             for (i, piece) in pieces.iter().enumerate() {
                 let found = common + evaluated(piece, share, self.count as f64 / TAU);
                 (block.lead[i], block.pace[i], block.pace_by_angle[i]) = (found.angle, 1.0 + found.rate, found.second);
             }
         }
+        common
     }
 
-    /// The polynomials of all elements' jitter at an instant, and the share of their interval that is behind.
+    /// Makes `pieces` those of all elements' jitter at an instant; gives the share of their interval that is behind.
     #[inline(always)]
-    fn jitters(&self, cage: &CageState) -> (Ref<'_, Pieces>, f64) {
+    fn jitters(&self, cage: WholeAngle, pieces: &mut LeadPieces) -> f64 {
         let KnotPosition { interval, share } = self.knot_position(cage, self.count as f64);
-        if self.pieces.borrow().jitter != Some(interval) {
-            self.renew(&mut self.pieces.borrow_mut(), interval);
+        let key = PieceKey { seed: self.seed, deviation: self.jitter, interval };
+        if pieces.jitter != Some(key) {
+            self.renew(pieces, key);
         }
-        (self.pieces.borrow(), share)
+        share
     }
 
     /// The polynomials of all elements' jitter in another interval.
     #[cold]
-    fn renew(&self, pieces: &mut Pieces, interval: i64) {
-        pieces.jitter = Some(interval);
+    fn renew(&self, pieces: &mut LeadPieces, key: PieceKey) {
+        pieces.jitter = Some(key);
+        pieces.of_elements.resize(self.count, [0.0; 4]);
         for (j, piece) in pieces.of_elements.iter_mut().enumerate() {
-            *piece = self.piece(NoiseSeries::Jitter(j), interval, self.jitter);
+            *piece = self.piece(NoiseSeries::Jitter(j), key.interval, self.jitter);
         }
     }
 
-    /// Speed (rad/s) and acceleration (rad/s²) of element `j`.
-    #[cold]
-    #[inline(never)]
-    pub fn speed_of_element(&self, j: usize, cage: CageState) -> [f64; 2] {
-        let Lead { rate, second, .. } = self.of_element(j, &cage);
-        [cage.speed * (1.0 + rate), cage.acceleration * (1.0 + rate) + cage.speed * cage.speed * second]
-    }
-
-    /// Sine and cosine of the angle of element `j`, which is `offset` ahead of the cage but for its lead.
-    #[cold]
-    #[inline(never)]
-    pub fn direction_of_element(&self, j: usize, offset: f64, cage: CageState) -> (f64, f64) {
-        sin_cos(offset + self.of_element(j, &cage).angle)
-    }
-
-    /// Angle (rad) by which element `j` is ahead.
-    #[cold]
-    #[inline(never)]
-    pub fn angle_of_element(&self, j: usize, cage: CageState) -> f64 {
-        self.of_element(j, &cage).angle
-    }
-
     /// Lead of the cage itself: that of all elements together. It is 0 at the start.
+    pub fn of_cage(&self, cage: WholeAngle) -> Lead {
+        self.of_cage_by(cage, |interval| self.wander_piece(interval))
+    }
+
+    /// The same with `pieces` at hand.
     #[inline(always)]
-    pub fn of_cage(&self, cage: &CageState) -> Lead {
+    fn of_cage_with(&self, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
+        self.of_cage_by(cage, |interval| {
+            let key = PieceKey { seed: self.seed, deviation: self.wander, interval };
+            if pieces.wander != Some(key) {
+                (pieces.wander, pieces.of_cage) = (Some(key), self.wander_piece(interval));
+            }
+            pieces.of_cage
+        })
+    }
+
+    #[inline(always)]
+    fn of_cage_by(&self, cage: WholeAngle, piece: impl FnOnce(i64) -> [f64; 4]) -> Lead {
         if self.wander == 0.0 {
             return Lead::default();
         }
         let per_turn = 1.0 / WANDER_TURNS;
         let KnotPosition { interval, share } = self.knot_position(cage, per_turn);
-        let mut pieces = self.pieces.borrow_mut();
-        if pieces.wander != Some(interval) {
-            pieces.wander = Some(interval);
-            let mut piece = self.piece(NoiseSeries::Wander, interval, self.wander);
-            piece[0] -= self.piece(NoiseSeries::Wander, 0, self.wander)[0];
-            pieces.of_cage = piece;
-        }
-        evaluated(&pieces.of_cage, share, per_turn / TAU)
+        evaluated(&piece(interval), share, per_turn / TAU)
+    }
+
+    /// The polynomial of the cage's lead in one interval.
+    #[cold]
+    fn wander_piece(&self, interval: i64) -> [f64; 4] {
+        let [value, c1, c2, c3] = self.piece(NoiseSeries::Wander, interval, self.wander);
+        [value - self.first, c1, c2, c3]
     }
 
     /// Where the cage is among knots of which there are `per_turn` in a turn.
     #[inline(always)]
-    fn knot_position(&self, cage: &CageState, per_turn: f64) -> KnotPosition {
+    fn knot_position(&self, cage: WholeAngle, per_turn: f64) -> KnotPosition {
         // Whole turns first, so that no digits are lost to them.
-        let turns = self.turns.get() as f64 * per_turn;
+        let turns = cage.turns as f64 * per_turn;
         let (whole, rest) = (turns.floor(), turns - turns.floor());
-        let at = rest + (cage.angle - self.start) / TAU * per_turn;
+        let at = rest + (cage.rest - self.start) / TAU * per_turn;
         KnotPosition { interval: whole as i64 + at.floor() as i64, share: at - at.floor() }
     }
 
@@ -267,9 +292,8 @@ mod tests {
         Irregularity::new(&cage, 9, -1.2).unwrap()
     }
 
-    fn at(of: &Irregularity, turns: i64, angle: f64) -> CageState {
-        of.begin(turns);
-        CageState::at_rest(angle)
+    fn at(turns: i64, angle: f64) -> WholeAngle {
+        WholeAngle { turns, rest: angle }
     }
 
     #[test]
@@ -278,7 +302,7 @@ mod tests {
         for k in 0..4000 {
             let (angle, step) = (f64::from(k) * 0.0137 - 20.0, 1e-5);
             for j in [0, 8] {
-                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, &at(&of, 0, angle + by)));
+                let [before, here, after] = [-step, 0.0, step].map(|by| of.of_element(j, at(0, angle + by)));
                 for (values, slope, size) in
                     [([before.angle, after.angle], here.rate, 1.0), ([before.rate, after.rate], here.second, 10.0)]
                 {
@@ -286,8 +310,8 @@ mod tests {
                     let quotient = (values[1] - values[0]) / (2.0 * step);
                     assert!((quotient - slope).abs() < 1e-5 * size, "{angle} {quotient} {slope}");
                 }
-                if (of.knot_position(&at(&of, 0, angle), 9.0).share - 0.5).abs() < 0.4
-                    && (of.knot_position(&at(&of, 0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
+                if (of.knot_position(at(0, angle), 9.0).share - 0.5).abs() < 0.4
+                    && (of.knot_position(at(0, angle), 1.0 / 3.0).share - 0.5).abs() < 0.4
                 {
                     let quotient = (after.second - before.second) / (2.0 * step);
                     assert!((quotient - here.third).abs() < 1e-5, "{angle} {quotient} {}", here.third);
@@ -301,12 +325,11 @@ mod tests {
         let of = irregular(0.01, 0.02, 3);
         for turns in [-400, -1, 0, 1, 2, 1000] {
             for angle in [-3.0, 0.1, 2.9, 7.0] {
-                let (one, other) =
-                    (of.of_element(4, &at(&of, turns, angle)), of.of_element(4, &at(&of, turns - 1, angle + TAU)));
+                let (one, other) = (of.of_element(4, at(turns, angle)), of.of_element(4, at(turns - 1, angle + TAU)));
                 assert!((one.angle - other.angle).abs() < 1e-13 && (one.rate - other.rate).abs() < 1e-13);
             }
         }
-        assert_eq!(of.of_cage(&at(&of, 0, -1.2)).angle, 0.0);
+        assert_eq!(of.of_cage(at(0, -1.2)).angle, 0.0);
     }
 
     #[test]
@@ -315,9 +338,8 @@ mod tests {
         let of = irregular(sigma, 0.0, 5);
         for harmonic in [1, 3, 6] {
             let count = 60_000;
-            let phase = |k: i32| {
-                f64::from(9 * harmonic) * of.of_element(0, &at(&of, 0, of.start + f64::from(k) * TAU / 9.0)).angle
-            };
+            let phase =
+                |k: i32| f64::from(9 * harmonic) * of.of_element(0, at(0, of.start + f64::from(k) * TAU / 9.0)).angle;
             let mean = (0..count).map(|k| phase(k).cos()).sum::<f64>() / f64::from(count);
             // Passages are a spacing apart, where a spline has its knots and half its coefficients' mean square.
             let at_knots = 0.5 / MEAN_SQUARE;
@@ -335,12 +357,12 @@ mod tests {
         let own = irregular(jitter, 0.0, 11);
         for k in 0..count {
             let angle = f64::from(k) * 0.35;
-            let lead = |j: usize, angle: f64| own.of_element(j, &at(&own, 0, angle)).angle;
+            let lead = |j: usize, angle: f64| own.of_element(j, at(0, angle)).angle;
             let here = lead(2, angle);
             squares += here * here;
             neighbours += here * lead(2, angle + TAU / 9.0);
             between += here * lead(3, angle);
-            rates += of.of_cage(&at(&of, 0, angle)).rate.powi(2);
+            rates += of.of_cage(at(0, angle)).rate.powi(2);
         }
         let mean = |sum: f64| sum / f64::from(count);
         // About 20 000 independent coefficients: 1 % of a mean square; 740 of the wander's: 5 %.

@@ -3,7 +3,7 @@
 //! The cage is known before the state is, so its part is worked out first, for several instants of a step together.
 //! Rings follow from the state where it has them, else from the host.
 
-use super::excitation::{Cubic, Excitation, Frames};
+use super::excitation::{Cubic, Excitation, Frames, WholeAngle};
 use super::film::FilmsNow;
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
@@ -61,12 +61,15 @@ pub struct Kinematics {
     pub housing: RingState,
 }
 
-/// Cage and rings at one instant, and the frames of defects and oil films, for which few contacts ask within a step's
-/// kernels.
+/// Cage and rings at one instant, and what few contacts ask for within a step's kernels: the cage's turns, the frames of
+/// defects and oil films.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramedKinematics {
     /// Cage and rings.
     pub motion: Kinematics,
+    /// Whole turns of the cage at the communication point. In its own state they would make every step of every bearing
+    /// longer, by 0.5 to 1 % of its instructions.
+    pub turns: i64,
     /// The frames of defects.
     pub frames: Frames,
     /// The oil films; `None` of dry contacts.
@@ -119,7 +122,7 @@ impl FramedKinematics {
     pub fn at_rest(cage_angle: f64, offset: Vector) -> Self {
         let housing = RingState { position: offset, ..RingState::default() };
         let (cage, shaft) = (CageState::at_rest(cage_angle), RingState::default());
-        Self { motion: Kinematics { cage, shaft, housing }, frames: Frames::default(), films: None }
+        Self { motion: Kinematics { cage, shaft, housing }, turns: 0, frames: Frames::default(), films: None }
     }
 
     /// The same positions with nothing moving.
@@ -127,7 +130,13 @@ impl FramedKinematics {
         let still = |ring: &RingState| RingState { velocity: Vector::zeros(), ..*ring };
         let cage = CageState { speed: 0.0, acceleration: 0.0, ..self.cage };
         let motion = Kinematics { cage, shaft: still(&self.shaft), housing: still(&self.housing) };
-        Self { motion, frames: self.frames.at_rest(), films: self.films }
+        Self { motion, frames: self.frames.at_rest(), ..*self }
+    }
+
+    /// Angle of the nominal cage.
+    #[inline]
+    pub(crate) fn cage_angle(&self) -> WholeAngle {
+        WholeAngle { turns: self.turns, rest: self.cage.angle }
     }
 }
 
@@ -146,6 +155,12 @@ impl Kinematics {
 }
 
 impl Excitation {
+    /// Angle of the nominal cage at an instant.
+    #[inline(always)]
+    pub(crate) fn cage_angle_of(&self, cage: &CageState) -> WholeAngle {
+        WholeAngle { turns: self.cage_turns, rest: cage.angle }
+    }
+
     /// The cage at `tau`.
     #[inline]
     pub fn cage_at(&self, tau: f64) -> CageState {

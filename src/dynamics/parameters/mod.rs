@@ -13,7 +13,7 @@ mod sensor_modes;
 mod supports;
 
 pub use excitation::{Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
-pub use irregularity::{Irregularity, Lead};
+pub use irregularity::{Irregularity, Lead, LeadPieces};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;

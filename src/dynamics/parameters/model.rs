@@ -1,15 +1,16 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
 use super::element_block::{ElementBlock, blocks};
-use super::excitation::{Excitation, Frame};
+use super::excitation::{Excitation, Frame, WholeAngle};
 use super::film::{Films, FilmsNow, OilFilms};
-use super::irregularity::{Irregularity, Lead};
-use super::kinematics::CageState;
+use super::irregularity::{Irregularity, Lead, LeadPieces};
+use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::sensor_modes::SensorModes;
 use super::supports::Supports;
 use crate::contact::law::{CompliantContact, smooth_laws};
+use crate::contact::near_defect::LoveSolvers;
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
 use crate::numerics::number::Scalar;
@@ -19,7 +20,7 @@ use crate::scene::{Damping, ElementInertia, Ring, Scene};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Parameters of the equations of motion.
+/// Parameters of the equations of motion. What an instant or a solution needs besides is with those who ask.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Number of elements Z.
@@ -71,6 +72,12 @@ pub struct Model {
     /// What differs from element to element, eight at a time.
     pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
 }
+
+/// It is parameters and nothing else, so that one serves all that runs in a process.
+const _: fn() = || {
+    fn shared<T: Send + Sync>() {}
+    shared::<Model>();
+};
 
 impl Model {
     /// Works the parameters out. `defects` are those of the inner and of the outer raceway, under the scene's contact
@@ -130,9 +137,9 @@ impl Model {
         Self::new(scene, [Frame::Shaft, Frame::Housing].map(|frame| Defects::new(frame, [])), Vec::new())
     }
 
-    /// Makes contacts near defects independent of what was computed before, rounding included.
-    pub fn forget_contacts(&self) {
-        self.all_defects().for_each(Defects::forget);
+    /// Where contacts of law `love` are solved, with the room that they need.
+    pub fn love_solvers(&self) -> LoveSolvers {
+        LoveSolvers::new(self.all_defects().flat_map(Defects::iter).map(|defect| &defect.surface))
     }
 
     /// The defects of all bodies.
@@ -198,14 +205,6 @@ impl Model {
         self.dampers.is_some()
     }
 
-    /// Tells an uneven cage after how many turns the communication step of this excitation begins.
-    #[inline(always)]
-    pub fn begin(&self, excitation: &Excitation) {
-        if let Some(uneven) = &self.irregularity {
-            uneven.begin(excitation.cage_turns);
-        }
-    }
-
     /// The oil films at `tau`; `None` of dry contacts.
     #[inline(always)]
     pub fn films_at(&self, excitation: &Excitation, tau: f64) -> Option<FilmsNow> {
@@ -224,34 +223,27 @@ impl Model {
         films.map_or(clearance, |films| clearance - films.together)
     }
 
-    /// What element `j` is ahead of its position in a cage that turns evenly.
+    /// What element `j` is ahead of its position in a cage that turns evenly and is at this angle.
     #[inline]
-    pub fn lead(&self, j: usize, cage: &CageState) -> Lead {
+    pub fn lead(&self, j: usize, cage: WholeAngle) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element(j, cage))
     }
 
+    /// The same for those who ask often, with `pieces` at hand.
+    #[inline]
+    pub(crate) fn lead_with(&self, j: usize, cage: WholeAngle, pieces: &mut LeadPieces) -> Lead {
+        self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_element_with(j, cage, pieces))
+    }
+
     /// What the cage itself is ahead of one that turns evenly.
-    pub fn cage_lead(&self, cage: &CageState) -> Lead {
+    pub fn cage_lead(&self, cage: WholeAngle) -> Lead {
         self.irregularity.as_ref().map_or(Lead::default(), |uneven| uneven.of_cage(cage))
     }
 
-    /// Angle of element `j` about the outer ring's centre (rad).
-    #[inline(always)]
-    pub fn element_angle(&self, j: usize, cage: &CageState) -> f64 {
-        let angle = cage.angle + self.element_offset(j);
-        match &self.irregularity {
-            None => angle,
-            Some(uneven) => angle + uneven.angle_of_element(j, *cage),
-        }
-    }
-
-    /// Speed (rad/s) and acceleration (rad/s²) of element `j` about the outer ring's centre.
-    #[inline(always)]
-    pub fn element_speed(&self, j: usize, cage: &CageState) -> [f64; 2] {
-        match &self.irregularity {
-            None => [cage.speed, cage.acceleration],
-            Some(uneven) => uneven.speed_of_element(j, *cage),
-        }
+    /// Angle of element `j` about the outer ring's centre (rad), the cage's whole turns left out.
+    #[inline]
+    pub fn element_angle(&self, j: usize, cage: WholeAngle) -> f64 {
+        cage.rest + self.element_offset(j) + self.lead(j, cage).angle
     }
 
     /// Angle (rad) by which elements spin while the cage turns by `cage` (rad) and the rings as they must for it, the
@@ -270,31 +262,37 @@ impl Model {
     }
 
     /// Radial direction of element `j`.
+    #[inline]
+    pub(in crate::dynamics) fn direction(&self, j: usize, now: &FramedKinematics) -> Vector {
+        self.direction_with(j, &now.cage, &self.lead(j, now.cage_angle()))
+    }
+
+    /// The same for a known lead.
     #[inline(always)]
-    pub(in crate::dynamics) fn direction(&self, j: usize, cage: &CageState) -> Vector {
+    pub(in crate::dynamics) fn direction_with(&self, j: usize, cage: &CageState, lead: &Lead) -> Vector {
         let (sin, cos) = match &self.irregularity {
             None => (self.elements[j / WIDEST].sin[j % WIDEST], self.elements[j / WIDEST].cos[j % WIDEST]),
-            Some(uneven) => uneven.direction_of_element(j, self.element_offset(j), *cage),
+            Some(_) => sin_cos(self.element_offset(j) + lead.angle),
         };
         turned_by(cage.direction, sin, cos)
     }
 
     /// Puts where all elements of an uneven cage are at an instant, and how fast they go, into `elements`; nothing in
-    /// an even one.
+    /// an even one. Gives the lead of the cage itself.
     #[inline(always)]
     pub(in crate::dynamics) fn update_uneven(
         &self,
-        excitation: &Excitation,
-        cage: &CageState,
+        cage: WholeAngle,
         elements: &mut [ElementBlock],
-    ) {
-        let Some(uneven) = &self.irregularity else { return };
-        uneven.begin(excitation.cage_turns);
-        uneven.update_all(cage, elements);
+        pieces: &mut LeadPieces,
+    ) -> Lead {
+        let Some(uneven) = &self.irregularity else { return Lead::default() };
+        let lead = uneven.update_all(cage, elements, pieces);
         for (block, offsets) in elements.iter_mut().zip(self.offsets.chunks(WIDEST)) {
             for (i, &offset) in offsets.iter().enumerate() {
                 (block.sin[i], block.cos[i]) = sin_cos(offset + block.lead[i]);
             }
         }
+        lead
     }
 }

@@ -6,10 +6,10 @@
 //! together stands here and nowhere else. Angles are in radians, counter-clockwise; those from a defect's centre within
 //! half a turn.
 
-use super::excitation::{Frame, Frames};
+use super::excitation::Frame;
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
-use crate::contact::near_defect::{Approach, NearDefect};
+use crate::contact::near_defect::{Approach, LoveSolvers, NearDefect};
 use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
 use std::f64::consts::TAU;
@@ -164,22 +164,22 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a direction (rad) against the
-    /// axes and a `distance` (m) of the element from the ring's centre; `curved`: see [`NearDefect::approach`].
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a `direction` (rad) in the body's
+    /// frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
+    /// [`NearDefect::approach`].
     #[inline(always)]
     pub fn approach<T: Scalar>(
         &self,
         cell: u32,
         u: T,
         direction: T,
-        frames: &Frames<T>,
         distance: T,
         curved: bool,
+        solvers: &mut LoveSolvers,
     ) -> Result<Approach<T>, ContactError> {
         let Some(defect) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
-        let against = direction - frames.of(self.frame).angle;
-        let angle = against.moved_to(defect.angle(against.value()));
-        defect.surface.approach((cell - defect.first) as usize, u, angle, distance, curved)
+        let angle = direction.moved_to(defect.angle(direction.value()));
+        defect.surface.approach((cell - defect.first) as usize, u, angle, distance, curved, solvers)
     }
 
     /// The defect that a cell belongs to.
@@ -197,13 +197,6 @@ impl Defects {
         let angles = self.defects.iter().map(|defect| defect.angle(direction));
         let nearest = angles.reduce(|near, other| if other.abs() < near.abs() { other } else { near });
         nearest.unwrap_or_else(|| wrap(direction))
-    }
-
-    /// Makes contacts independent of what was computed before, rounding included.
-    pub fn forget(&self) {
-        for defect in &self.defects {
-            defect.surface.forget();
-        }
     }
 }
 

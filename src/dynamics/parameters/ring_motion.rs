@@ -9,9 +9,9 @@ use crate::scene::Motion;
 impl Model {
     /// Cage and rings at `tau`.
     pub fn kinematics(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> FramedKinematics {
-        self.begin(excitation);
         let motion = self.kinematics_of(&Stage { excitation, cage: &excitation.cage_at(tau), state, ahead: None });
-        FramedKinematics { motion, frames: excitation.frames_at(tau), films: self.films_at(excitation, tau) }
+        let (frames, films) = (excitation.frames_at(tau), self.films_at(excitation, tau));
+        FramedKinematics { motion, turns: excitation.cage_turns, frames, films }
     }
 
     /// As [`kinematics`](Self::kinematics), without the frames of defects and oil films.

@@ -26,9 +26,10 @@ use super::path_search::PathSearch;
 use super::tangent::RadialForce;
 use super::tangent::{Rings, stacked};
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::contacts::{Meeting, UnsolvedContact};
-use crate::dynamics::parameters::{FramedKinematics, Model, SMOOTH};
+use crate::dynamics::parameters::{FramedKinematics, Model, PathMotion, SMOOTH};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
 
@@ -100,9 +101,10 @@ impl Model {
         cells: [[u32; 2]; 2],
         guess: f64,
         at: &ElementMotion<T>,
+        shortcuts: &mut Shortcuts,
     ) -> InBalance<T> {
-        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values());
-        let still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)));
+        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values(), shortcuts);
+        let mut still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)), shortcuts);
         let path = if slope == 0.0 {
             T::from(path)
         } else {
@@ -113,7 +115,7 @@ impl Model {
         let path_rate = self.balance_rate(&elastic);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate));
+        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), shortcuts);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
         let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());
         let known = T::from(if is_known { 1.0 } else { f64::NAN });
@@ -130,16 +132,22 @@ impl Model {
     }
 
     /// Path of the balance, looked for from `guess` (m) on.
-    pub(in crate::dynamics) fn balanced_path(&self, cells: [[u32; 2]; 2], guess: f64, at: &ElementMotion) -> FoundPath {
+    pub(in crate::dynamics) fn balanced_path(
+        &self,
+        cells: [[u32; 2]; 2],
+        guess: f64,
+        at: &ElementMotion,
+        shortcuts: &mut Shortcuts,
+    ) -> FoundPath {
         let mut search = PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE);
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         let mut slope = 0.0;
         for evaluations in 1..MOST_EVALUATIONS {
-            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched()));
+            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched(), shortcuts));
             slope = push.slope;
             if push.force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
-                let path = self.touching_path(at.element, cells[1], at.angle, &at.frames);
+                let path = self.touching_path(at.element, cells[1], at.angle, &at.frames, shortcuts);
                 return FoundPath { path, slope, evaluations };
             }
             let newton = u - push.force / slope;
@@ -195,17 +203,19 @@ impl Model {
         cells: [[u32; 2]; 2],
         path: f64,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> Option<UnsolvedContact> {
-        let gap = self.inner_gap(path, now.offset(), self.direction(j, &now.cage), self.clearance(now.films.as_ref()));
-        let inner = self.inner_meeting(j, cells[0], &gap, self.element_angle(j, &now.cage));
-        let outer = self.outer_meeting(j, cells[1], path, &now.cage);
+        let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(path), now, shortcuts);
+        let gap = self.inner_gap(path, now.offset(), e_r, self.clearance(now.films.as_ref()));
+        let inner = self.inner_meeting(j, cells[0], &gap, angle);
+        let outer = self.outer_meeting(angle, j, cells[1], path);
         // A search ends on the near side of where there is no answer.
         let beyond = |at: Meeting| Meeting { u: at.u + SETTLED, ..at };
         [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)]
             .into_iter()
             .filter(|(_, at)| at.cells != [SMOOTH; 2])
             .find_map(|(side, at)| {
-                self.near(side, &beyond(at), &now.frames).err().map(|cause| {
+                self.near(side, &beyond(at), &now.frames, shortcuts).err().map(|cause| {
                     let angle = self.angle_from_defect(side, &at, &now.frames);
                     UnsolvedContact { element: j, angle, offset: now.offset().into(), cause }
                 })

@@ -6,6 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::number::Scalar;
@@ -82,10 +83,16 @@ impl Model {
     }
 
     /// Elastic Jacobian of the rings' forces at the element paths `u`, everything standing where it is in `now`.
-    pub fn ring_jacobian(&self, u: &[f64], cells: &Cells, now: &FramedKinematics) -> RingJacobian {
+    pub fn ring_jacobian(
+        &self,
+        u: &[f64],
+        cells: &Cells,
+        now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
+    ) -> RingJacobian {
         let (still, mut jacobian) = (now.standing(), RingJacobian::zeros());
         for (j, &u) in u.iter().enumerate().take(self.element_count) {
-            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still), &mut jacobian);
+            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still, shortcuts), &mut jacobian);
         }
         jacobian
     }
@@ -97,8 +104,9 @@ impl Model {
         cells: [[u32; 2]; 2],
         u: f64,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> Linearized {
-        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now))
+        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now, shortcuts), shortcuts)
     }
 
     /// As [`ring_jacobian`](Self::ring_jacobian) with the dampers' part at the velocities of `now`, each u' being 0,
@@ -108,11 +116,12 @@ impl Model {
         u: &[f64],
         cells: &Cells,
         now: &FramedKinematics,
+        shortcuts: &mut Shortcuts,
     ) -> RingJacobian {
         let mut jacobian = RingJacobian::zeros();
         for j in 0..self.element_count {
-            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now).searched();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at), &mut jacobian);
+            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now, shortcuts).searched();
+            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
         }
         jacobian
     }

@@ -24,7 +24,7 @@ pub trait Scalar:
     /// The number at which `residual` vanishes, known to be `root` but for its derivatives; `slope` is the residual's
     /// there. Each of Newton's steps gives one more order of derivatives, exactly.
     #[inline(always)]
-    fn root_of(root: f64, slope: f64, residual: impl Fn(Self) -> Self) -> Self {
+    fn root_of(root: f64, slope: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
         let mut found = Self::from(root);
         for _ in 0..Self::DEPTH {
             found = (found - residual(found) * Self::Plain::from(1.0 / slope)).moved_to(root);

@@ -87,10 +87,10 @@ fn explicit_step<S: Wide>(
 #[inline(always)]
 fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
     let (Problem { model, excitation }, Span { from, length: h }) = (problem, span);
-    let Workspace { buffers, forces, jacobian, arrow, by_time, largest_error, weights, .. } = workspace;
+    let Workspace { buffers, forces, jacobian, arrow, largest_error, weights, .. } = workspace;
     let cages = excitation.cage_after(from, rodas::NODES.map(|node| node * h));
     let mut system = System { model, excitation, cages, forces, jacobian, arrow };
-    rodas::try_step(simd, buffers, &progress.state, by_time, h, &mut system);
+    rodas::try_step(simd, buffers, &progress.state, &jacobian.by_time, h, &mut system);
     *largest_error = rodas::largest_error(buffers, weights);
     let StageBuffers { end, last, .. } = buffers;
     let stage = Stage { excitation, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
@@ -122,7 +122,7 @@ impl Kernel for Probe<'_> {
                 let start =
                     Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
                 let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
-                model.dense_output(excitation, [start, end], h, share, &cage, dense);
+                model.dense_output(excitation, [start, end], [h, share], &cage, &mut forces.shortcuts.leads, dense);
             }
         }
         model.derivative_on::<S, true>(

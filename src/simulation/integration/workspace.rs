@@ -66,9 +66,7 @@ pub struct Workspace {
     /// Which explicit method steps.
     pub(super) pair: ExplicitMethod,
     pub(super) jacobian: Jacobian,
-    /// ∂f/∂t at the start of the step.
-    pub(super) by_time: Row,
-    /// Jacobian and `by_time` belong to the start of the step.
+    /// The Jacobian belongs to the start of the step.
     pub(in crate::simulation) linearized: bool,
     pub(super) arrow: Arrow,
     pub(in crate::simulation) forces: Forces,
@@ -99,7 +97,6 @@ impl Workspace {
             buffers: StageBuffers::new(model.layout.partition(), positions),
             pair: ExplicitMethod::default(),
             jacobian: Jacobian::new(model),
-            by_time: Row::zeros(len),
             linearized: false,
             arrow: Arrow::new(model),
             forces: Forces::of(model),
@@ -127,8 +124,8 @@ impl Workspace {
     /// Jacobian at the start of the next step, unless it is there.
     pub(super) fn linearize(&mut self, problem: Problem, tau: f64, progress: &Progress) {
         if !self.linearized {
-            let (jacobian, by_time) = (&mut self.jacobian, &mut self.by_time);
-            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, by_time);
+            let (jacobian, shortcuts) = (&mut self.jacobian, &mut self.forces.shortcuts);
+            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, shortcuts);
             self.linearized = true;
         }
     }

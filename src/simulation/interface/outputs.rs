@@ -56,7 +56,6 @@ impl<'a> Outputs<'a> {
     /// communication point.
     pub fn new(model: &'a Model, solution: Solution<'a>, forces: &'a Forces, start: Angles) -> Self {
         let Solution { excitation, tau, state, derivative, sensor_modes } = solution;
-        model.begin(excitation);
         let mut sensors = [0.0; MOST_SENSORS];
         for (k, i) in model.layout.sensor_indices().enumerate() {
             sensors[k] = model.sensor_modes.measured(k, derivative[i + 1], sensor_modes);
@@ -80,7 +79,7 @@ impl<'a> Outputs<'a> {
 
     /// Angle of element `j`, all turns counted (rad).
     fn element_angle(&self, j: usize) -> f64 {
-        self.angles.cage + self.model.element_offset(j) + self.model.lead(j, &self.cage).angle
+        self.angles.cage + self.model.element_offset(j) + self.forces.element_lead(j)
     }
 
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
@@ -92,10 +91,10 @@ impl<'a> Outputs<'a> {
             Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
             Quantity::SensorAcceleration(k) => self.sensors[k],
             Quantity::Probe(axis) => self.ring[0].position[axis] - self.ring[1].position[axis],
-            Quantity::CageAngle => self.angles.cage + self.model.cage_lead(&self.cage).angle,
+            Quantity::CageAngle => self.angles.cage + self.forces.cage_lead.angle,
             Quantity::RingAngle(ring) => self.angles.frames[ring.frame() as usize],
             Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),
-            Quantity::CageSpeed => self.cage.speed * (1.0 + self.model.cage_lead(&self.cage).rate),
+            Quantity::CageSpeed => self.cage.speed * (1.0 + self.forces.cage_lead.rate),
             // A sum over all elements, and recorders do not ask for it.
             Quantity::CageTorque => {
                 let acceleration = self.acceleration[RingName::Housing.index()];
@@ -103,7 +102,7 @@ impl<'a> Outputs<'a> {
             }
             Quantity::ElementAngle(j) => self.element_angle(j),
             Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.element_angle(j)),
-            Quantity::ElementPath(j) => self.forces.paths(self.model, self.state)[j],
+            Quantity::ElementPath(j) => self.forces.contacts.paths(self.model, self.state)[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::Stiffness(..) => return None,

@@ -16,7 +16,7 @@
 //! counts of the solver change with nothing until the next step.
 
 use super::values::{as_many, out_of_range};
-use crate::dynamics::parameters::{CageState, Excitation, Frame, Kinematics, Lead};
+use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
@@ -48,7 +48,7 @@ impl Simulation {
         }
         self.refresh()?;
         let excitation = self.excitation(true);
-        self.model.forget_contacts();
+        self.forces.shortcuts.forget();
         let progress = &self.state.progress;
         self.model.derivative(
             &excitation,
@@ -109,7 +109,7 @@ impl Simulation {
             }
         }
         self.refresh()?;
-        self.model.forget_contacts();
+        self.forces.shortcuts.forget();
         self.along_inputs(knowns, seed);
         if !self.state.started {
             let excitation = self.excitation(false);
@@ -120,6 +120,7 @@ impl Simulation {
                 &progress.state,
                 loads,
                 &mut self.change.variation,
+                &mut self.forces.shortcuts,
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
@@ -232,7 +233,7 @@ impl Simulation {
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
         let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
-        self.model.vary(&excitation, cells, state, acceleration, variation, forces);
+        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.shortcuts);
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
@@ -269,29 +270,23 @@ impl Simulation {
             } else {
                 state
             };
-            change.stiffness = self.model.vary_stiffness(&excitation, cells, state, &change.variation);
+            change.stiffness =
+                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.shortcuts);
         }
-    }
-
-    /// The nominal cage at the communication point.
-    fn cage_now(&self) -> CageState {
-        let excitation = self.excitation(false);
-        self.model.begin(&excitation);
-        excitation.cage_at(0.0)
     }
 
     /// Change of the cage's own angle and speed.
     fn cage_change(&self) -> [f64; 2] {
-        let (cage, variation) = (self.cage_now(), &self.change.variation);
-        let Lead { rate, second, .. } = self.model.cage_lead(&cage);
-        let share = 1.0 + rate;
-        let speed = share * variation.cage_speed + second * cage.speed * variation.cage_angle;
+        let variation = &self.change.variation;
+        let Lead { rate, second, .. } = self.model.cage_lead(self.state.cage);
+        let (share, cage_speed) = (1.0 + rate, self.excitation(false).cage.0[1]);
+        let speed = share * variation.cage_speed + second * cage_speed * variation.cage_angle;
         [share * variation.cage_angle, speed]
     }
 
     /// Change of the angle of element `j`.
     fn element_turn(&self, j: usize) -> f64 {
-        (1.0 + self.model.lead(j, &self.cage_now()).rate) * self.change.variation.cage_angle
+        (1.0 + self.model.lead(j, self.state.cage).rate) * self.change.variation.cage_angle
     }
 
     /// What the change makes of one output.

@@ -3,7 +3,7 @@
 use super::excitation;
 use super::state::{Ended, State};
 use crate::contact::map::ContactMaps;
-use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
 use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene, nearest};
@@ -356,7 +356,7 @@ impl Simulation {
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
-        self.model.forget_contacts();
+        self.forces.shortcuts.forget();
         self.model.derivative(
             &excitation,
             0.0,
@@ -378,6 +378,9 @@ impl Simulation {
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
         self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
+        for forces in [&mut self.forces, &mut self.workspace.forces] {
+            forces.shortcuts = Shortcuts::of(&self.model);
+        }
         self.up_to_date = UpToDate::Model;
         Ok(())
     }

@@ -16,7 +16,7 @@ impl Simulation {
         let excitation = self.excitation(false);
         let progress = &self.state.progress;
         // Outputs must not depend on what was computed before, or a restored state would show other roundings.
-        self.model.forget_contacts();
+        self.forces.shortcuts.forget();
         self.model.derivative(
             &excitation,
             0.0,
@@ -75,7 +75,8 @@ impl Simulation {
             let progress = &self.state.progress;
             let now = self.model.kinematics(&excitation, 0.0, &progress.state);
             let cells = &progress.cells;
-            let jacobian = self.model.ring_jacobian(self.forces.paths(&self.model, &progress.state), cells, &now);
+            let paths = self.forces.contacts.paths(&self.model, &progress.state);
+            let jacobian = self.model.ring_jacobian(paths, cells, &now, &mut self.forces.shortcuts);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {
                     *value = -jacobian[(row, column)];

@@ -1,9 +1,8 @@
 //! A communication step, at once or one integration step after the other.
 //!
 //! Between two integration steps one may *inspect* it: the simulation then stands where the step has come to, as if it
-//! ended there, and shows its outputs. That changes no bit of what follows, but for law `love`, whose contacts are
-//! solved anew from there on: equal within what the solver leaves. Whoever sets an input meanwhile ends the part of the
-//! step before, and begins another with the inputs as they are.
+//! ended there, and shows its outputs. That changes no bit of what follows. Whoever sets an input meanwhile ends the
+//! part of the step before, and begins another with the inputs as they are.
 
 use super::excitation;
 use super::life::{Simulation, UpToDate};
@@ -159,8 +158,6 @@ impl Simulation {
             (inspection.time, inspection.cage, inspection.frames, inspection.ended);
         state.reals[..count].copy_from_slice(&inspection.inputs.values[..count]);
         state.input_rates.copy_from_slice(&inspection.inputs.rates[..count]);
-        // Whether anybody has read anything makes no difference.
-        self.model.forget_contacts();
         Ok(())
     }
 
@@ -179,7 +176,7 @@ impl Simulation {
         for tau in [0.0, step] {
             self.check_films(&excitation, tau)?;
         }
-        self.model.forget_contacts();
+        self.workspace.forces.shortcuts.forget();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
             Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
             // What is not sampled cannot be made up for: whoever records on from here begins anew.

@@ -10,7 +10,7 @@ use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
-use crate::dynamics::parameters::{CageState, Centred, DefectiveElement, Defects, Frame, Model};
+use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Frame, Model, WholeAngle};
 use crate::scene::{ContactLaw, DefectOn, Scene};
 use crate::simulation::SimulationError;
 use crate::surface::roller_profile::unread;
@@ -88,8 +88,8 @@ pub fn build_model(
                 // At the start the defect is at its angle from the direction of its element, and the spin is counted
                 // from there; the inner raceway is met with the opposite side.
                 // In an irregular cage it is the model that knows where that is.
-                let start = CageState::at_rest(scene.cage.initial_angle);
-                let facing = Model::smooth(scene).element_angle(element, &start);
+                let start = WholeAngle::in_first_turn(scene.cage.initial_angle);
+                let facing = Model::smooth(scene).element_angle(element, start);
                 let centre = facing + spot.centre;
                 let both = [
                     Centred { surface: near(RacewaySide::Inner)?, centre: centre - PI },

@@ -10,7 +10,7 @@ use crate::statics::StaticError;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{CageState, Cells, Cubic, Excitation, Model, Quadratic};
+use brinell::dynamics::parameters::{Cells, Cubic, Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{Motion, Scene};
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
@@ -190,8 +190,8 @@ impl Assembly {
 
     /// Angle of each element (rad), counter-clockwise from +x, in [−π, π], with the cage at rest at an angle (rad).
     pub(super) fn element_angles(&self, cage_angle: f64) -> Vec<f64> {
-        let cage = CageState::at_rest(cage_angle);
-        (0..self.model.element_count).map(|j| wrap(self.model.element_angle(j, &cage))).collect()
+        let cage = WholeAngle::in_first_turn(cage_angle);
+        (0..self.model.element_count).map(|j| wrap(self.model.element_angle(j, cage))).collect()
     }
 
     /// All degrees of freedom: every element, then rings and sensor as far as they move.
@@ -257,7 +257,7 @@ impl Assembly {
         let mut forces = Forces::of(model);
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let mut jacobian = Jacobian::new(model);
-        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut vec![0.0; state.len()]);
+        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut forces.shortcuts);
         let contacts = &forces.contacts;
         let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
         let weight = model.element_mass * model.gravity.norm();

@@ -8,7 +8,7 @@
 use crate::statics::evenly_spaced;
 use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::rolling::RacewaySide;
-use brinell::dynamics::parameters::{CageState, Model};
+use brinell::dynamics::parameters::{Model, WholeAngle};
 use brinell::scene::{DefectOn, Scene};
 use brinell::simulation::setup::map_specification;
 use brinell::surface::Surface;
@@ -70,7 +70,7 @@ pub(crate) fn angles(model: &Model, edges: &[Edge], first: f64, period: f64, cou
             let target = first + (place - model.element_offset(j) - first).rem_euclid(period);
             let mut cage = target;
             for _ in 0..CORRECTIONS {
-                let lead = model.element_angle(j, &CageState::at_rest(cage)) - model.element_offset(j) - cage;
+                let lead = model.element_angle(j, WholeAngle::in_first_turn(cage)) - model.element_offset(j) - cage;
                 cage = target - lead;
             }
             if (first..=last).contains(&cage) {

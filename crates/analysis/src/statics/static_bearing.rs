@@ -17,7 +17,7 @@
 use brinell::contact::map::ContactMaps;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{CageState, Excitation, Model, Quadratic};
+use brinell::dynamics::parameters::{Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
@@ -229,15 +229,16 @@ impl StaticBearing {
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;
         let paths = &state[..model.element_count];
-        let jacobian = model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state));
-        let cage = CageState::at_rest(cage_angle);
+        let jacobian =
+            model.ring_jacobian(paths, &cells, &model.kinematics(&excitation, 0.0, &state), &mut forces.shortcuts);
+        let cage = WholeAngle::in_first_turn(cage_angle);
         let elements = (0..model.element_count).map(|j| LoadedElement {
-            angle: wrap(model.element_angle(j, &cage)),
+            angle: wrap(model.element_angle(j, cage)),
             path: paths[j],
             inner_force: forces.contacts.inner[j],
             outer_force: forces.contacts.outer[j],
             inner_approach: forces.contacts.inner_approach[j],
-            in_defect: self.is_in_defect(model.element_angle(j, &cage)),
+            in_defect: self.is_in_defect(model.element_angle(j, cage)),
         });
         Ok(Balance {
             cage_angle,

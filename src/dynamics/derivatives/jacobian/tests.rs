@@ -4,6 +4,7 @@ use crate::contact::near_defect::NearDefect;
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::derivatives::jacobian::*;
 use crate::dynamics::parameters::{
     Cells, Centred, Cubic, DefectiveElement, Defects, Frame, Quadratic, SMOOTH, Turning,
@@ -128,11 +129,11 @@ pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<
         state[i + 1] -= 20e-6;
     }
     for j in 0..z {
-        let cage = excitation.cage_at(0.0);
-        let outer = model.outer.defects.cell_at(model.element_angle(j, &cage));
-        let at = model.outer_meeting(j, [outer, SMOOTH], 0.0, &cage);
+        let angle = model.element_angle(j, excitation.cage_angle_of(&excitation.cage_at(0.0)));
+        let outer = model.outer.defects.cell_at(angle);
+        let at = model.outer_meeting(angle, j, [outer, SMOOTH], 0.0);
         let frames = excitation.frames_at(0.0);
-        let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames).approach.value;
+        let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames, &mut Shortcuts::default()).approach.value;
         state[j] += floor + 6e-6;
     }
     let cells = model.cells_at(excitation, 0.0, &state);
@@ -194,8 +195,8 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
             let cells = model.cells_at(&excitation, tau, &state);
             near_defect += cells.iter().filter(|&&c| c != SMOOTH).count();
             let len = model.layout.len;
-            let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
-            model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut by_time);
+            let mut jacobian = Jacobian::new(&model);
+            model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut Shortcuts::default());
             let matrix = jacobian.matrix(len);
             let mut forces = Forces::of(&model);
             let mut at = |tau: f64, state: &[f64]| {
@@ -228,7 +229,7 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
                 }
                 for i in 0..len {
                     let quotient = (after[i] - before[i]) / (2.0 * h);
-                    let found = if k == len { by_time[i] } else { matrix[i][k] };
+                    let found = if k == len { jacobian.by_time[i] } else { matrix[i][k] };
                     // Rounding of the largest terms over the difference; truncation (h/δ)² and second derivatives 1e-6.
                     let rounding = 1e-14 * largest / h;
                     assert!(

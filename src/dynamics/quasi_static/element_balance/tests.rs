@@ -2,6 +2,7 @@
 
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
 use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};
@@ -73,7 +74,8 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
             let in_cells = model.cells_of(cells, j);
-            let found = model.in_balance(in_cells, 0.0, &model.element_motion(j, PathMotion::at_rest(0.0), &now));
+            let at = model.element_motion(j, PathMotion::at_rest(0.0), &now, &mut Shortcuts::default());
+            let found = model.in_balance(in_cells, 0.0, &at, &mut Shortcuts::default());
             let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
             let scale = found.inner.norm() + found.outer.norm() + body.abs();
@@ -85,7 +87,7 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let [shaft, housing] = found.forces().on_rings();
             rings += stacked(shaft, housing);
             // Both end their search where 1e-12 m is left of a step; side by side stiffnesses are those before it.
-            let path = forces.paths(model, state)[j];
+            let path = forces.contacts.paths(model, state)[j];
             assert!((path - found.path).abs() < 1e-15, "element {j}: {path:e} against {:e} alone", found.path);
             let rate = rates[j] - found.path_rate;
             let pushing = [found.elastic.inner.approach, found.elastic.outer.approach]
@@ -117,11 +119,11 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
             from[..model.element_count].fill(guess);
             let (_, again) = case.at(0.0, &from);
             for j in 0..model.element_count {
-                let [one, other] = [&forces, &again].map(|forces| forces.paths(model, state)[j]);
+                let [one, other] = [&forces, &again].map(|forces| forces.contacts.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
-                let at = model.element_motion(j, PathMotion::at_rest(guess), &now);
-                let alone = model.in_balance(model.cells_of(cells, j), guess, &at).path;
+                let at = model.element_motion(j, PathMotion::at_rest(guess), &now, &mut Shortcuts::default());
+                let alone = model.in_balance(model.cells_of(cells, j), guess, &at, &mut Shortcuts::default()).path;
                 assert!((one - alone).abs() < 1e-15, "{one:e} and {alone:e} alone from {guess:e}");
             }
         }
@@ -148,7 +150,7 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
             continue;
         }
         for j in 0..model.element_count {
-            let quotient = (after.paths(model, state)[j] - before.paths(model, state)[j]) / (2.0 * h);
+            let quotient = (after.contacts.paths(model, state)[j] - before.contacts.paths(model, state)[j]) / (2.0 * h);
             // What the search leaves of a light contact's path, 1e-17 m, over the difference; second derivatives 1e-6.
             let limit = 1e-5 * quotient.abs() + 1e-7;
             assert!((rates[j] - quotient).abs() < limit, "element {j}: {} against {quotient}", rates[j]);
@@ -168,7 +170,7 @@ fn tangent_and_dampers_of_the_rings_equal_difference_quotients() {
                 let Moving { model, excitation, state, cells } = &case;
                 let len = model.layout.len;
                 let mut jacobian = Jacobian::new(model);
-                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut vec![0.0; len]);
+                model.linearize(excitation, 0.0, cells, state, &mut jacobian, &mut Shortcuts::default());
                 let matrix = jacobian.matrix(len);
                 let (here, forces) = case.at(0.0, state);
                 let largest = here.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
@@ -217,7 +219,7 @@ fn registers_of_every_width_give_the_same_bits() {
         let mut found = [false, true].map(|widest| {
             let (mut rates, mut forces) = (vec![0.0; state.len()], Forces::of(model));
             forces.enter(model, cells);
-            model.update_uneven(excitation, &cage, &mut forces.elements);
+            model.update_uneven(excitation.cage_angle_of(&cage), &mut forces.elements, &mut forces.shortcuts.leads);
             let kernel =
                 SmoothElements::<true> { model, now: &now, stage: &stage, derivative: &mut rates, forces: &mut forces };
             let rings = if widest { dispatch(kernel) } else { kernel.run(Scalar256b) };

@@ -7,7 +7,7 @@
 //! way and no other; the one it has just passed does not count again unless it comes back.
 
 use super::knots::Contact;
-use crate::dynamics::parameters::{Ahead, Defects, FramedKinematics};
+use crate::dynamics::parameters::{Ahead, Defects, FramedKinematics, LeadPieces};
 use crate::simulation::integration::kernels::probe;
 use crate::simulation::integration::progress::Progress;
 use crate::simulation::integration::workspace::{Problem, Span, Workspace};
@@ -66,14 +66,19 @@ pub(in crate::simulation) fn first_crossing(
     progress: &Progress,
 ) -> Option<Crossing> {
     let model = problem.model;
-    let [start, end] = [(span.from, &progress.state), (span.end(), &workspace.buffers.end)]
-        .map(|(tau, state)| Instant { now: model.kinematics(problem.excitation, tau, state), tau, paths: state });
+    let Workspace { buffers, forces, .. } = &mut *workspace;
+    let pieces = &mut forces.shortcuts.leads;
+    let [start, end] = [(span.from, &progress.state), (span.end(), &buffers.end)].map(|(tau, state)| Instant {
+        now: model.kinematics(problem.excitation, tau, state),
+        tau,
+        paths: state,
+    });
     let mut first: Option<Candidate> = None;
     for at in watched(problem, progress) {
         let frame = start.now.frames.of(at.defects.frame).angle;
         let direction = start.now.cage.angle + model.element_offset(at.element);
-        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, &at) };
-        let travel = begun.travel(problem, &end);
+        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, &at, pieces) };
+        let travel = begun.travel(problem, &end, pieces);
         let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction + begun.lead - frame, travel > 0.0)
         else {
             continue;
@@ -105,7 +110,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         let tau = span.from + share * span.length;
         let now = model.kinematics(problem.excitation, tau, &workspace.dense);
         let there = Instant { now, tau, paths: &workspace.dense };
-        let made = begun.travel(problem, &there) / way;
+        let made = begun.travel(problem, &there, &mut workspace.forces.shortcuts.leads) / way;
         let beyond = made >= 1.0;
         if beyond {
             high = share
@@ -153,23 +158,25 @@ fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<It
 impl Instant<'_> {
     /// Angle by which a contact is seen ahead of its element's position in an even cage (rad): from the inner ring,
     /// and in an uneven cage.
-    fn lead(&self, problem: Problem, at: &Watched) -> f64 {
+    fn lead(&self, problem: Problem, at: &Watched, pieces: &mut LeadPieces) -> f64 {
         let (model, j) = (problem.model, at.element);
-        let of_cage = model.lead(j, &self.now.cage).angle;
+        let of_cage = model.lead_with(j, self.now.cage_angle(), pieces);
         match at.contact {
-            Contact::Inner(_) | Contact::Own(_, 0) => model.inner_lead(j, self.paths[j], &self.now) + of_cage,
-            _ => of_cage,
+            Contact::Inner(_) | Contact::Own(_, 0) => {
+                model.inner_lead(j, self.paths[j], &self.now, &of_cage) + of_cage.angle
+            }
+            _ => of_cage.angle,
         }
     }
 }
 
 impl Begun<'_> {
     /// Angle that the contact has gone since (rad), against what bears its defect.
-    fn travel(&self, problem: Problem, to: &Instant) -> f64 {
+    fn travel(&self, problem: Problem, to: &Instant, pieces: &mut LeadPieces) -> f64 {
         // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
         let (cage, frame) =
             (&problem.excitation.cage, &problem.excitation.frames[self.at.defects.frame as usize].since);
         let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
-        even + (to.lead(problem, &self.at) - self.lead)
+        even + (to.lead(problem, &self.at, pieces) - self.lead)
     }
 }

@@ -157,6 +157,7 @@ impl Arrow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::contacts::Shortcuts;
     use crate::dynamics::derivatives::jacobian::tests::{DAMPINGS, MOTIONS, lively, moving, noise};
 
     #[test]
@@ -167,8 +168,8 @@ mod tests {
             let (model, excitation) = lively(motions, damping, -1.58);
             let (state, cells) = moving(&model, &excitation, case as u64);
             let len = model.layout.len;
-            let (mut jacobian, mut by_time) = (Jacobian::new(&model), vec![0.0; len]);
-            model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut by_time);
+            let mut jacobian = Jacobian::new(&model);
+            model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
             let matrix = jacobian.matrix(len);
             let mut arrow = Arrow::new(&model);
             for shift in [1e2, 1e5, 1e9] {

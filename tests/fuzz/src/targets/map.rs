@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use brinell::contact::map::ContactMap;
-use brinell::contact::near_defect::{NearDefect, NearMap};
+use brinell::contact::near_defect::{LoveSolvers, NearDefect, NearMap};
 use brinell::numerics::number::Dual;
 
 const RACEWAY: f64 = 23.6e-3;
@@ -31,7 +31,7 @@ fn check(bytes: &[u8]) -> bool {
                 // With derivatives it is asked for more.
                 let dual = Dual::<Dual<f64, 1>, 1>::variable;
                 let [path, angle] = [path, angle].map(|value| dual(Dual::variable(value, 0), 0));
-                let _ = near.approach(cell, path, angle, Dual::from(RACEWAY), true);
+                let _ = near.approach(cell, path, angle, Dual::from(RACEWAY), true, &mut LoveSolvers::default());
             }
         }
     }
