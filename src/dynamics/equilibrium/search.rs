@@ -20,8 +20,7 @@
 
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting};
+use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
 use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;

@@ -47,16 +47,15 @@ impl Model {
         let velocity = self.housing_state(excitation, cage.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
-            let second = [0, 1].map(|k| {
-                let cage = &ends[k].cage;
-                let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
-                let (e_r, [speed, _]) = (self.direction_with(j, cage, &lead), lead.speed(cage));
+            let mut second = |k: usize| {
+                let (e_r, speed) = self.direction_and_speed(j, excitation, &ends[k].cage, pieces);
                 ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
-            });
+            };
+            let second = [second(0), second(1)];
             let (path, path_rate) = basis.at(value(j), rate(j), second);
             out[j] = path;
-            let lead = self.lead_with(j, excitation.cage_angle_of(cage), pieces);
-            out[w + j] = path_rate + self.direction_with(j, cage, &lead).dot(&velocity);
+            let (e_r, _) = self.direction_and_speed(j, excitation, cage, pieces);
+            out[w + j] = path_rate + e_r.dot(&velocity);
         }
     }
 }

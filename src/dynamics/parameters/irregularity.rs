@@ -321,6 +321,22 @@ mod tests {
     }
 
     #[test]
+    fn pieces_at_hand_change_no_bit_whatever_was_asked_before() {
+        let cages =
+            [irregular(0.01, 0.02, 7), irregular(0.01, 0.02, 8), irregular(0.02, 0.01, 7), irregular(0.0, 0.02, 7)];
+        let (mut pieces, mut elements) = (LeadPieces::default(), vec![ElementBlock::default(); 2]);
+        for k in 0..200 {
+            // Forwards, backwards and to another cage.
+            let (of, cage) = (&cages[k % 4], at(k as i64 % 3, f64::from(k as u32 * 7919 % 50) * 0.21 - 5.0));
+            for j in [0, 8] {
+                assert_eq!(of.of_element_with(j, cage, &mut pieces), of.of_element(j, cage));
+            }
+            assert_eq!(of.update_all(cage, &mut elements, &mut pieces), of.of_cage(cage));
+            assert_eq!(elements[1].lead[0], of.of_element(8, cage).angle);
+        }
+    }
+
+    #[test]
     fn turns_count_as_angles_do() {
         let of = irregular(0.01, 0.02, 3);
         for turns in [-400, -1, 0, 1, 2, 1000] {
