@@ -74,7 +74,7 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
         let mut rings = Rings::zeros();
         for j in 0..model.element_count {
             let in_cells = model.cells_of(cells, j);
-            let at = model.element_motion(j, PathMotion::at_rest(0.0), &now, shortcuts);
+            let at = model.element_motion(j, PathMotion::at_rest(0.0), &now, &mut Shortcuts::default());
             let found = model.in_balance(in_cells, 0.0, &at, &mut Shortcuts::default());
             let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
@@ -122,7 +122,7 @@ fn the_balance_does_not_depend_on_where_its_search_begins() {
                 let [one, other] = [&forces, &again].map(|forces| forces.contacts.paths(model, state)[j]);
                 // A loose element's path is known to the rounding of its contact's approach.
                 assert!((one - other).abs() < 1e-15, "{one:e} and {other:e} from {guess:e}");
-                let at = model.element_motion(j, PathMotion::at_rest(guess), &now, shortcuts);
+                let at = model.element_motion(j, PathMotion::at_rest(guess), &now, &mut Shortcuts::default());
                 let alone = model.in_balance(model.cells_of(cells, j), guess, &at, &mut Shortcuts::default()).path;
                 assert!((one - alone).abs() < 1e-15, "{one:e} and {alone:e} alone from {guess:e}");
             }
