@@ -47,11 +47,14 @@ impl Model {
         let velocity = self.housing_state(excitation, cage.tau, out).velocity;
         let w = layout.radial_velocity;
         for j in 0..self.element_count {
-            let mut second = |k: usize| {
-                let (e_r, speed) = self.direction_and_speed(j, excitation, &ends[k].cage, pieces);
+            let going = [
+                self.direction_and_speed(j, excitation, &ends[0].cage, pieces),
+                self.direction_and_speed(j, excitation, &ends[1].cage, pieces),
+            ];
+            let second = [0, 1].map(|k| {
+                let (e_r, speed) = going[k];
                 ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
-            };
-            let second = [second(0), second(1)];
+            });
             let (path, path_rate) = basis.at(value(j), rate(j), second);
             out[j] = path;
             let (e_r, _) = self.direction_and_speed(j, excitation, cage, pieces);
