@@ -1,8 +1,9 @@
 //! A contact near a defect as one potential, said for a ball on the outer raceway.
 //!
 //! W(u, s) = (2/5) K Δ(u, s)^{5/2} is the elastic energy of an element whose centre stands at radial path u and arc s;
-//! K is Hertz's constant of the smooth contact. (A roller has K Δ^{19/9} 9/19.) Δ is the *equivalent approach*: the approach on
-//! the smooth raceway that stores the same energy. Both forces derive from it, so that a closed path costs no work:
+//! K is Hertz's constant of the smooth contact. (A roller has K Δ^{19/9} 9/19.) Δ is the *equivalent approach*: the
+//! approach on the smooth raceway that stores the same energy. Both forces derive from it, so that a closed path costs
+//! no work:
 //!
 //! ```text
 //! F_n = ∂W/∂u = K Δ^{3/2} ∂Δ/∂u     radial, pushes the element inwards

@@ -1,4 +1,5 @@
-//! Kinematics of a radial bearing, without a contact angle, that rolls without sliding, and its characteristic frequencies.
+//! Kinematics of a radial bearing, without a contact angle, that rolls without sliding, and its characteristic
+//! frequencies.
 //!
 //! With γ = D_w/D_pw and contact angle 0 cage and elements turn at
 //! ```text

@@ -133,8 +133,8 @@ macro_rules! functions {
             call(instance, &functions::SET_FMU_STATE, |instance| instance.restore(state))
         }
 
-        /// Frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state instead of its
-        /// address, as fmusim (the program in C) does, has it freed all the same; the log warns.
+        /// Frees a saved state and sets its handle to NULL. NULL is ignored. A host that passes the state instead of
+        /// its address, as fmusim (the program in C) does, has it freed all the same; the log warns.
         ///
         /// # Safety
         /// `state` is null or points to a handle.

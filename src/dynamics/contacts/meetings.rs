@@ -15,8 +15,8 @@ impl Model {
         InnerGap::of(self.outer_centre_radius + u, u, offset, clearance, false)
     }
 
-    /// What the direction φ of element `j`, which is `lead` ahead on the cage, at path `u` from the inner ring's centre is
-    /// ahead of its angle θ about the outer ring's (rad).
+    /// What the direction φ of element `j`, which is `lead` ahead on the cage, at path `u` from the inner ring's centre
+    /// is ahead of its angle θ about the outer ring's (rad).
     pub(crate) fn inner_lead(&self, j: usize, u: f64, now: &Kinematics, lead: &Lead) -> f64 {
         // The direction alone, of which the clearance is no part.
         self.inner_gap(u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()

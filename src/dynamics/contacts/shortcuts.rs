@@ -1,5 +1,5 @@
-//! What was worked out last and makes the next of its kind quicker. It changes no result, but for roundings of law `love`,
-//! which those forget who want bits that depend on nothing before.
+//! What was worked out last and makes the next of its kind quicker. It changes no result, but for roundings of law
+//! `love`, which those forget who want bits that depend on nothing before.
 
 use crate::contact::near_defect::LoveSolvers;
 use crate::dynamics::parameters::{LeadPieces, Model};
@@ -16,7 +16,9 @@ pub struct Shortcuts {
 impl Shortcuts {
     /// With all the room that a model needs, which others take when they need it first.
     pub fn of(model: &Model) -> Self {
-        Self { love: model.love_solvers(), leads: LeadPieces::new(model.element_count) }
+        // An even cage has no polynomials.
+        let count = if model.is_uneven() { model.element_count } else { 0 };
+        Self { love: model.love_solvers(), leads: LeadPieces::new(count) }
     }
 
     /// Forgets what later roundings would depend on.

@@ -61,8 +61,8 @@ pub struct Kinematics {
     pub housing: RingState,
 }
 
-/// Cage and rings at one instant, and what few contacts ask for within a step's kernels: the cage's turns, the frames of
-/// defects and oil films.
+/// Cage and rings at one instant, and what few contacts ask for within a step's kernels: the cage's turns, the frames
+/// of defects and oil films.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramedKinematics {
     /// Cage and rings.

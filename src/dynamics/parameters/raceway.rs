@@ -164,8 +164,8 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a `direction` (rad) in the body's
-    /// frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
+    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a `direction` (rad) in the
+    /// body's frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
     /// [`NearDefect::approach`].
     #[inline(always)]
     pub fn approach<T: Scalar>(

@@ -1,5 +1,5 @@
-//! `modelDescription.xml` of FMI 2.0 and 3.0 co-simulation: `assets/modelDescription.xml`, filled from the variable table
-//! and nothing else.
+//! `modelDescription.xml` of FMI 2.0 and 3.0 co-simulation: `assets/modelDescription.xml`, filled from the variable
+//! table and nothing else.
 //!
 //! Rules beyond the schema: every unit that is used is defined by its base units; every variable that is not real says
 //! its variability; outputs and initial unknowns ascend, and carry their dependencies, because a missing list means
