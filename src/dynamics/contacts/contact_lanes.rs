@@ -1,6 +1,6 @@
 //! Contacts of several elements at a time: everything of the right-hand side that is the same for all elements.
 //!
-//! The equations are those of the [kernel](super::kernel). An element near the defect, and every element of
+//! The equations are those of the `kernel`. An element near the defect, and every element of
 //! a bearing whose outer raceway yields, has outer stiffness 0 here; its outer contact has been worked out before.
 //!
 //! A lane without an element has stiffness 0 and no derivative.
