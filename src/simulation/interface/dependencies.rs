@@ -55,7 +55,8 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,
         Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
-        Q::Stiffness(..) => position || (film && speed),
+        // Elements in balance are where their centrifugal force puts them.
+        Q::Stiffness(..) => position || ((film || balanced) && speed),
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
             Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {

@@ -28,8 +28,8 @@ const SPEEDS: [f64; 2] = [0.5, 2.0];
 /// the recording's own comb, and more than what is named; between those of a recording's own comb is noise.
 const AS_STRONG: f64 = 0.5;
 /// Standard deviations above those at other distances from which sidebands exist: recordings of inner raceways have 6
-/// to 34, of outer ones −1 to 2.7 and one 7.
-const SIDEBANDS: f64 = 4.0;
+/// to 34, of outer ones −1 to 2.7 and one 7; simulated ones of outer raceways up to 4.1.
+const SIDEBANDS: f64 = 5.0;
 /// Harmonics of the shaft that are sought in the signal, and by how much those at one speed must be higher than those
 /// at another one to decide (nepers of power).
 const SHAFT: usize = 5;
