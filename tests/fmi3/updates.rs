@@ -85,7 +85,7 @@ fn a_run_under_law_love_that_is_watched_has_the_bits_of_one_that_is_not() {
         *count.borrow_mut() += 1;
         None
     });
-    let watched = Host::with(resources(), "instance 1", &["shaft.force.y"], Some(on_update));
+    let watched = Host::with(resources(), "instance 1", &y, Some(on_update));
     for host in [&watched, &plain] {
         host.start();
         (0..4).for_each(|n| host.step(f64::from(n) * STEP, STEP));
