@@ -14,7 +14,6 @@
 //! contact with its stiffness, and knows derivatives too.
 
 use super::elasticity::{Elastic, Elasticity, Line, Point};
-use crate::numerics::number::Dual;
 use crate::numerics::number::Number;
 use crate::numerics::number::Scalar;
 use crate::scene::Damping;
@@ -112,12 +111,6 @@ impl ForceLaw {
         }
     }
 
-    /// Change of the elastic tangent stiffness with the approach (N/m²), at approach `delta` (m) above 0.
-    #[inline]
-    pub fn hardening(&self, delta: f64) -> f64 {
-        self.elastic_stiffness(Dual::<f64, 1>::variable(delta, 0)).by[0]
-    }
-
     /// The approach (m) at which the elastic force is `force` (N), by Newton's method from above: the force is convex.
     pub fn approach_under(&self, force: f64) -> f64 {
         // A straight roller's approach and the crown's mean depth together are too much, as a convex force's mean over
@@ -178,6 +171,7 @@ impl ForceLaw {
 mod tests {
     use super::*;
     use crate::contact::law::crown::Crown;
+    use crate::numerics::number::Dual;
     use proptest::prelude::*;
     use std::sync::{Arc, LazyLock};
 

@@ -14,7 +14,7 @@ use crate::contact::error::ContactError;
 use crate::contact::law::{CompliantContact, SqueezeFilm};
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
+use crate::dynamics::parameters::{Defects, Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
 use crate::numerics::number::Number;
 use crate::numerics::number::Scalar;
 
@@ -119,11 +119,32 @@ impl<T: Scalar> InnerGap<T> {
     }
 }
 
+impl<T: Scalar> Meeting<T> {
+    /// The surface under it in a `cell` of a body's defects.
+    #[inline(always)]
+    fn over(
+        &self,
+        defects: &Defects,
+        cell: u32,
+        frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> Result<Near<T>, ContactError> {
+        let direction = self.direction - frames.of(defects.frame).angle;
+        let approach = defects.approach(cell, self.u, direction, self.distance, self.curved, &mut shortcuts.love)?;
+        Ok(Near { approach, frame: defects.frame })
+    }
+}
+
 impl<T: Scalar> Near<T> {
     /// The smooth raceway at approach `u` (m).
     #[inline(always)]
     pub(in crate::dynamics) fn smooth(u: T) -> Self {
         Self { approach: Approach::smooth(u), frame: Frame::Housing }
+    }
+
+    /// NaN, where the contact law has no answer: an integration that meets it takes the step back.
+    pub(in crate::dynamics) fn unsolved() -> Self {
+        Self { approach: Approach::unsolved(), frame: Frame::Housing }
     }
 
     /// Force of the contact of this `law` whose approach and angle change at these rates (m/s, rad/s), with the film
@@ -166,10 +187,7 @@ impl Model {
         if at.cells[1] != SMOOTH {
             return self.near_own_defect(side, at, frames, shortcuts);
         }
-        let defects = &self.raceway(side).defects;
-        let direction = at.direction - frames.of(defects.frame).angle;
-        let approach = defects.approach(at.cells[0], at.u, direction, at.distance, at.curved, &mut shortcuts.love)?;
-        Ok(Near { approach, frame: defects.frame })
+        at.over(&self.raceway(side).defects, at.cells[0], frames, shortcuts)
     }
 
     /// As [`Self::near`], the smooth raceway included; NaN where the contact law has no answer.
@@ -183,7 +201,7 @@ impl Model {
         if at.cells == [SMOOTH; 2] {
             return Near::smooth(at.u);
         }
-        self.near(side, at, frames, shortcuts).unwrap_or(Near { approach: Approach::unsolved(), frame: Frame::Housing })
+        self.near(side, at, frames, shortcuts).unwrap_or(Near::unsolved())
     }
 
     /// As [`Self::near`], of an element in a cell of its own defect.
@@ -197,12 +215,10 @@ impl Model {
     ) -> Result<Near<T>, ContactError> {
         let [ring, own] = at.cells;
         let defective = self.defective.iter().find(|defective| defective.element == at.element);
-        let approach = defective.map_or(Ok(Approach::smooth(at.u)), |defective| {
-            let defects = &defective.defects[side as usize];
-            let direction = at.direction - frames.of(defects.frame).angle;
-            defects.approach(own, at.u, direction, at.distance, at.curved, &mut shortcuts.love)
-        })?;
-        let own = Near { approach, frame: Frame::Spin };
+        let own = match defective {
+            Some(defective) => at.over(&defective.defects[side as usize], own, frames, shortcuts)?,
+            None => Near { approach: Approach::smooth(at.u), frame: Frame::Spin },
+        };
         if ring == SMOOTH {
             return Ok(own);
         }

@@ -5,7 +5,6 @@ use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
 use super::kernel::{ContactForce, Meeting, Near};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
-use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, SMOOTH, moved};
 use crate::numerics::lanes::{Kernel, WIDEST, Wide};
@@ -30,8 +29,10 @@ impl Model {
         if RECORD {
             contacts.clear();
         }
-        let mut sum = OuterSum { on_housing: Vector::zeros(), elements, torques, contacts };
         let (law, film) = (&self.outer.contact, films.map(|films| &films.squeeze[RacewaySide::Outer as usize]));
+        let on_housing = Vector::zeros();
+        let inverse_mass = self.inverse_element_mass;
+        let mut sum = OuterSum { law, inverse_mass, on_housing, elements, torques, contacts };
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             let [angle, speed] = self.turning(j, now, sum.elements);
@@ -40,14 +41,14 @@ impl Model {
             if cells == [SMOOTH; 2] {
                 let near = Near::smooth(u);
                 let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
+                sum.add::<RECORD>(&at, &found, near.frame, meeting.distance);
             } else {
                 *defect_lookups += 1;
                 let near = self.near(RacewaySide::Outer, &meeting, frames, shortcuts).unwrap_or_else(|cause| {
                     self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                 });
                 let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(law, &at, &found, (near.frame, meeting.distance));
+                sum.add::<RECORD>(&at, &found, near.frame, meeting.distance);
             }
         }
         sum.on_housing
@@ -67,7 +68,7 @@ impl Model {
         let e_r = turned_by(now.cage.direction, block.sin[i], block.cos[i]);
         let path_rate = state[self.layout.radial_velocity + j] - now.housing.velocity.dot(&e_r);
         let u = moved(state[j], path_rate, ahead);
-        OnPath { element: j, e_r, u, path_rate, inverse_mass: self.inverse_element_mass }
+        OnPath { element: j, e_r, u, path_rate }
     }
 
     /// Angle (rad) of element `j` about the outer ring's centre, and its speed (rad/s).
@@ -137,7 +138,7 @@ impl Model {
             let angle = self.angle_from_defect(side, at, frames);
             *unsolved = Some(UnsolvedContact { element: at.element, angle, offset: now.offset().into(), cause });
         }
-        Near { approach: Approach::unsolved(), frame: Frame::Housing }
+        Near::unsolved()
     }
 }
 
@@ -151,6 +152,8 @@ impl NonSmoothContact {
 
 /// What outer contacts that are not those of the smooth rigid raceway add up to.
 struct OuterSum<'a> {
+    law: &'a CompliantContact,
+    inverse_mass: f64,
     on_housing: Vector,
     elements: &'a mut [ElementBlock],
     torques: &'a mut [f64; 3],
@@ -161,17 +164,17 @@ impl OuterSum<'_> {
     #[inline(always)]
     fn add<const RECORD: bool>(
         &mut self,
-        law: &CompliantContact,
-        &OnPath { element: j, e_r, inverse_mass, .. }: &OnPath,
+        &OnPath { element: j, e_r, .. }: &OnPath,
         found: &ContactForce<f64>,
-        (frame, distance): (Frame, f64),
+        frame: Frame,
+        distance: f64,
     ) {
         let [f_r, f_t] = found.force;
-        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * inverse_mass;
+        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_mass;
         self.on_housing += e_r * f_r - turned(e_r) * f_t;
         if RECORD {
             self.torques[frame as usize] -= f_t * distance;
-            self.contacts.push(NonSmoothContact::new(j, law, found, [f_r, f_t]));
+            self.contacts.push(NonSmoothContact::new(j, self.law, found, [f_r, f_t]));
         }
     }
 }
@@ -182,7 +185,6 @@ struct OnPath {
     e_r: Vector,
     u: f64,
     path_rate: f64,
-    inverse_mass: f64,
 }
 
 /// The outer contacts that are not those of the smooth rigid raceway, as a function of its own for the machine's

@@ -176,7 +176,7 @@ impl Model {
         let mut rings = Rings::zeros();
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
-            let forces = self.changing_forces((j, cells), state, &now, by, shortcuts);
+            let forces = self.changing_forces(j, cells, state, &now, by, shortcuts);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
             let around = forces.inner.y + forces.outer.y;
@@ -204,7 +204,8 @@ impl Model {
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.
     fn changing_forces(
         &self,
-        (j, cells): (usize, &Cells),
+        j: usize,
+        cells: &Cells,
         state: &[f64],
         now: &FramedKinematics,
         by: &Variation,
@@ -218,32 +219,17 @@ impl Model {
         }
     }
 
-    /// As [`Model::vary_equilibrium`] of elements in balance, whose paths follow in [`Model::vary`].
-    pub(in crate::dynamics) fn vary_equilibrium_in_balance(
+    /// Change of the forces on the rings (N), of elements in balance with their paths where these ask for it.
+    pub(in crate::dynamics) fn vary_rings(
         &self,
-        excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
-        loads: Rings,
-        by: &mut Variation,
+        now: &FramedKinematics,
+        by: &Variation,
         shortcuts: &mut Shortcuts,
-    ) -> Option<()> {
-        let now = self.kinematics(excitation, 0.0, state);
-        let mut change = |by: &Variation| -> Rings {
-            let elements = 0..self.element_count;
-            elements.map(|j| on_rings(&self.changing_forces((j, cells), state, &now, by, shortcuts))).sum()
-        };
-        let force = loads + change(by);
-        let mut jacobian = RingJacobian::zeros();
-        for axis in 0..2 {
-            let mut moved = Variation::new(self.element_count);
-            moved.housing.position[axis] = 1.0;
-            let by_offset = change(&moved);
-            jacobian.set_column(axis, &-by_offset);
-            jacobian.set_column(2 + axis, &by_offset);
-        }
-        by.move_rings(&self.balancing_motion(&jacobian, force)?);
-        Some(())
+    ) -> Rings {
+        let elements = 0..self.element_count;
+        elements.map(|j| on_rings(&self.changing_forces(j, cells, state, now, by, shortcuts))).sum()
     }
 
     /// Change of the inner ring's elastic force by its own position, [`Model::ring_jacobian`]'s first block (N/m), for

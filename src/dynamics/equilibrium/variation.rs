@@ -1,8 +1,8 @@
 //! How the static equilibrium moves when an input does: the implicit function theorem.
 //!
 //! At the start each element is in radial balance with u' = 0, and so is each internal ring. A change of inputs and
-//! rings moves each path as its balance asks, and the internal rings by the
-//! solution of what is then left of theirs, four equations at most.
+//! rings moves each path as its balance asks, and the internal rings by the solution of what is then left of theirs,
+//! four equations at most.
 //!
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
@@ -26,10 +26,21 @@ impl Model {
         by: &mut Variation,
         shortcuts: &mut Shortcuts,
     ) -> Option<()> {
-        if self.elements_in_balance() {
-            return self.vary_equilibrium_in_balance(excitation, cells, state, loads, by, shortcuts);
-        }
         let now = self.kinematics(excitation, 0.0, state);
+        if self.elements_in_balance() {
+            // Their paths follow in `Model::vary`.
+            let force = loads + self.vary_rings(cells, state, &now, by, shortcuts);
+            let mut jacobian = RingJacobian::zeros();
+            for axis in 0..2 {
+                let mut moved = Variation::new(self.element_count);
+                moved.housing.position[axis] = 1.0;
+                let by_offset = self.vary_rings(cells, state, &now, &moved, shortcuts);
+                jacobian.set_column(axis, &-by_offset);
+                jacobian.set_column(2 + axis, &by_offset);
+            }
+            by.move_rings(&self.balancing_motion(&jacobian, force)?);
+            return Some(());
+        }
         let given = ElementVariation {
             offset: by.offset(),
             drift: by.drift(),

@@ -48,16 +48,7 @@ impl Simulation {
         }
         self.refresh()?;
         let excitation = self.excitation(true);
-        self.forces.shortcuts.forget();
-        let progress = &self.state.progress;
-        self.model.derivative(
-            &excitation,
-            0.0,
-            &progress.cells,
-            &progress.state,
-            &mut self.derivative,
-            &mut self.forces,
-        );
+        self.evaluate(&excitation);
         self.along_time(&excitation);
         self.finish_change(references);
         for (value, &reference) in values.iter_mut().zip(references) {

@@ -356,20 +356,21 @@ impl Simulation {
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
-        self.forces.shortcuts.forget();
-        self.model.derivative(
-            &excitation,
-            0.0,
-            &progress.cells,
-            &progress.state,
-            &mut self.derivative,
-            &mut self.forces,
-        );
+        self.evaluate(&excitation);
+        let progress = &mut self.state.progress;
         self.forces.note_pushing(&mut progress.pushing);
         let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
         progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
         self.up_to_date = UpToDate::State;
         Ok(())
+    }
+
+    /// Derivative and forces at the communication point under `excitation`. They must not depend on what was computed
+    /// before, or a restored state would show other roundings.
+    pub(super) fn evaluate(&mut self, excitation: &Excitation) {
+        self.forces.shortcuts.forget();
+        let (progress, derivative) = (&self.state.progress, &mut self.derivative);
+        self.model.derivative(excitation, 0.0, &progress.cells, &progress.state, derivative, &mut self.forces);
     }
 
     fn rebuild(&mut self) -> Result<(), SimulationError> {

@@ -14,17 +14,7 @@ impl Simulation {
             self.find_equilibrium()?;
         }
         let excitation = self.excitation(false);
-        let progress = &self.state.progress;
-        // Outputs must not depend on what was computed before, or a restored state would show other roundings.
-        self.forces.shortcuts.forget();
-        self.model.derivative(
-            &excitation,
-            0.0,
-            &progress.cells,
-            &progress.state,
-            &mut self.derivative,
-            &mut self.forces,
-        );
+        self.evaluate(&excitation);
         if !self.state.started {
             self.rest();
         }

@@ -147,7 +147,7 @@ impl Measured {
         let order = ((PREDICTED * rate) as usize).max(FEWEST_PREDICTING);
         let impacts = linear_prediction::residual(recording.samples(), order);
         let mut impacts = Spectrum::of(&impacts, rate);
-        let reversed = reversed(recording.samples(), &mut impacts, order, (rate, band));
+        let reversed = reversed(recording.samples(), &mut impacts, order, rate, band);
         let mut high = impacts.squared_envelope(band);
         let even = Passages::even(recording.samples().len(), rate / comb.frequency);
         let inside = raceway == Raceway::Inner;
@@ -233,7 +233,7 @@ fn check_size(recording: &Recording, nominal: f64) -> Result<(), SizingError> {
 /// A structure rings after an impact and not before it: the causal prediction takes the ringing off and leaves the
 /// impact. Backwards it would have to know the impact in advance, and leaves more. Recorded and simulated faults have
 /// 1.1 to 3.5 times as much kurtosis forwards, those that are lost in noise as much.
-fn reversed(signal: &[f64], residual: &mut Spectrum, order: usize, (rate, band): (f64, Band)) -> Option<[f64; 2]> {
+fn reversed(signal: &[f64], residual: &mut Spectrum, order: usize, rate: f64, band: Band) -> Option<[f64; 2]> {
     let backwards: Vec<f64> = signal.iter().rev().copied().collect();
     let backwards = linear_prediction::residual(&backwards, order);
     let sharpness = |residual: &mut Spectrum| {
