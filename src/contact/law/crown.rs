@@ -128,6 +128,10 @@ impl Crown {
 fn node(depths: &[f64], approach: f64, s: f64) -> [f64; 2] {
     let count = depths.len() as f64;
     let mean = depths.iter().sum::<f64>() / count;
+    if approach == 0.0 {
+        // Laminae without depth carry from the first, straight: the middle one of an odd number, or a flat middle.
+        return [depths.iter().filter(|&&depth| depth == 0.0).count() as f64 / count, 0.0];
+    }
     if approach.is_infinite() {
         // c = 1 − (10/9) P̄/δ + …, δ = P̄ s²/(1 − s²).
         return [1.0, 20.0 / 9.0 / NODES as f64];
@@ -206,6 +210,26 @@ mod tests {
             }
             println!("{laminae} laminae from {least} on: {worst:?}");
             assert!(worst[0] < limits[0] && worst[1] < limits[1], "{laminae} {least}: {worst:?}");
+        }
+    }
+
+    #[test]
+    fn laminae_without_depth_carry_from_the_first() {
+        // The middle one of an odd number; and most of a long roller's.
+        let long = |k: u32| logarithmic_depth(3e-3, 20e-3, 20e-3 * ((f64::from(k) + 0.5) / 40.0 - 0.5));
+        for depths in [depths(41), (0..40).map(long).collect()] {
+            let flat = depths.iter().filter(|&&depth| depth == 0.0).count() as f64 / depths.len() as f64;
+            assert!(flat > 0.0);
+            let crown = Crown::new(&depths);
+            for part in [1e-12, 1e-9, 1e-8, 1e-7] {
+                let delta = part * crown.mean_depth();
+                let Carrying { part, slope, .. } = crown.carrying(delta);
+                let [force, stiffness] = sum(&depths, delta);
+                let straight = delta * ninth_root(delta);
+                // A step of the table in which others begin to carry; nothing else does.
+                assert!((part / flat - 1.0).abs() < 1e-12 && (part * straight / force - 1.0).abs() < 1e-12);
+                assert!((slope * straight / delta / stiffness - 1.0).abs() < 1e-12, "{delta:e}");
+            }
         }
     }
 
