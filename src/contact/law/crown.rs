@@ -97,7 +97,8 @@ impl Crown {
         let by_ln = slope - LINE_ORDER * part;
         match order {
             0 => [part, n],
-            _ if part <= 0.0 => [0.0; 2],
+            // Where nothing carries yet, or only what carries straight from the first.
+            _ if part <= 0.0 || delta <= 0.0 => [0.0; 2],
             1 => [by_ln / delta, (n + second / part - n * n) / delta],
             _ => [(second - 2.0 * LINE_ORDER * by_ln - (LINE_ORDER - 1.0) * LINE_ORDER * part) / (delta * delta), 0.0],
         }
@@ -221,6 +222,8 @@ mod tests {
             let flat = depths.iter().filter(|&&depth| depth == 0.0).count() as f64 / depths.len() as f64;
             assert!(flat > 0.0);
             let crown = Crown::new(&depths);
+            assert_eq!(crown.part_and_order(0.0, 0), [flat, 10.0 / 9.0]);
+            assert_eq!([1, 2].map(|order| crown.part_and_order(0.0, order)), [[0.0; 2]; 2]);
             for part in [1e-12, 1e-9, 1e-8, 1e-7] {
                 let delta = part * crown.mean_depth();
                 let Carrying { part, slope, .. } = crown.carrying(delta);
