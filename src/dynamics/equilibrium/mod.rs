@@ -1,5 +1,6 @@
 //! The static equilibrium in which a run begins, and how it changes with an input.
 
+mod element;
 mod error;
 mod resting;
 pub mod search;

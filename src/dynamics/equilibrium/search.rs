@@ -18,12 +18,15 @@
 //! then lies between the two paths; forces are those of the way between them at which nothing is left, and the state is
 //! the path at which less is.
 
+use super::element::ElementAtRest;
 pub use super::error::EquilibriumError;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting, Shortcuts};
+use crate::dynamics::contacts::{ElementMotion, Meeting, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
-use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
+use crate::dynamics::quasi_static::{RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
+use crate::numerics::sin_cos;
+use std::f64::consts::FRAC_PI_4;
 
 /// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
 const RESIDUAL: f64 = 1e-12;
@@ -33,8 +36,6 @@ const SMALLEST_RESIDUAL: f64 = 1e-12;
 const UNBALANCED: f64 = 1e-6;
 /// How far from where a search ended a contact law is asked for an answer (m): far above the rounding of paths.
 const FURTHER: f64 = 1e-15;
-/// First step of an element's search that its last path does not begin (m).
-const FIRST_STRIDE: f64 = 1e-6;
 /// Longest step of a ring between two iterations at first (m); a soft support may have a long way to go.
 const LONGEST_STEP: f64 = 50e-6;
 /// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
@@ -57,33 +58,64 @@ impl Model {
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];
         let given = Given { excitation, cells, still: self.kinematics(excitation, 0.0, state) };
-        let mut rings = stacked(given.still.shaft.position, given.still.housing.position);
-        let mut balance = self.balance(&given, rings, &mut u, shortcuts);
+        let rings = stacked(given.still.shaft.position, given.still.housing.position);
+        let mut found = self.equilibrium_from(&given, rings, &mut u, shortcuts);
+        // Over steep defects more than one way down ends on a ledge.
+        for start in self.other_starts() {
+            if !matches!(found, Err(EquilibriumError::NotFound { .. })) {
+                break;
+            }
+            u.fill(0.0);
+            let again = self.equilibrium_from(&given, rings + start, &mut u, shortcuts);
+            found = again.or(found);
+        }
+        self.write(excitation, found?, &u, state);
+        Ok(())
+    }
+
+    /// Displacements of the free rings (m) from which a balance is looked for that was not found from rest: all around,
+    /// to where elements just touch and as far again.
+    fn other_starts(&self) -> impl Iterator<Item = Rings> {
+        let play = 0.5 * self.radial_clearance.max(0.0) + 1e-3 * self.element_radius;
+        (0..16).map(move |k| {
+            let (sin, cos) = sin_cos(f64::from(k % 8) * FRAC_PI_4);
+            let by = Vector::new(sin, -cos) * if k < 8 { play } else { 2.0 * play };
+            self.free_rings(stacked(by, -by))
+        })
+    }
+
+    /// The free rings in balance, all elements with them, looked for from there.
+    fn equilibrium_from(
+        &self,
+        given: &Given,
+        mut rings: Rings,
+        u: &mut [f64],
+        shortcuts: &mut Shortcuts,
+    ) -> Result<Rings, EquilibriumError> {
+        let mut balance = self.balance(given, rings, u, shortcuts);
         let mut iteration = 0;
         // An element without a balance where the rings are to begin with is told by the checks below.
         while balance.residual() > balance.limit && balance.residual().is_finite() {
             iteration += 1;
-            let step = self.newton_step(&given, rings, &u, (&balance, iteration), shortcuts);
-            let next =
-                self.along(&given, (rings, step), &mut u, &balance, shortcuts).filter(|_| iteration <= ITERATIONS);
+            let step = self.newton_step(given, rings, u, (&balance, iteration), shortcuts);
+            let next = self.along(given, (rings, step), u, &balance, shortcuts).filter(|_| iteration <= ITERATIONS);
             let Some(next) = next else {
                 if balance.residual() <= balance.rounding {
                     // As near as roundings let it come: back to the paths of these rings.
-                    self.balance(&given, rings, &mut u, shortcuts);
+                    self.balance(given, rings, u, shortcuts);
                     break;
                 }
                 // A step that cannot be taken may end where a contact has no answer.
                 let tried = rings + step;
-                self.balance(&given, tried, &mut u, shortcuts);
-                self.check_contacts(&given, tried, &u, shortcuts)?;
+                self.balance(given, tried, u, shortcuts);
+                self.check_contacts(given, tried, u, shortcuts)?;
                 return Err(EquilibriumError::NotFound { residual: balance.residual(), limit: balance.limit });
             };
             (rings, balance) = next;
         }
-        self.check_contacts(&given, rings, &u, shortcuts)?;
-        self.check_elements(&given, rings, &mut u, shortcuts)?;
-        self.write(excitation, rings, &u, state);
-        Ok(())
+        self.check_contacts(given, rings, u, shortcuts)?;
+        self.check_elements(given, rings, u, shortcuts)?;
+        Ok(rings)
     }
 
     /// As [`equilibrium`](Self::equilibrium), the cells of all contacts found with it: in which cell an inner contact
@@ -108,63 +140,6 @@ impl Model {
             cells = there;
         }
         Ok(cells)
-    }
-
-    /// Element `j` in radial balance, looked for from path `guess` on.
-    pub(super) fn balanced_element(
-        &self,
-        j: usize,
-        cells: [[u32; 2]; 2],
-        guess: f64,
-        now: &FramedKinematics,
-        shortcuts: &mut Shortcuts,
-    ) -> ElementAtRest {
-        let at = self.element_motion(j, PathMotion::at_rest(guess), now, shortcuts).searched();
-        let touch = match cells[1] {
-            [SMOOTH, SMOOTH] => 0.0,
-            cells => self.touching_path(j, cells, at.angle, &at.frames, shortcuts),
-        };
-        let mut element = |u: f64| {
-            let element = self.linearized_at(cells, &at.on_path(u, 0.0), shortcuts);
-            (self.radial_push(&element), element)
-        };
-        let (RadialForce { force: at_touch, .. }, touching) = element(touch);
-        if at_touch == 0.0 {
-            return ElementAtRest { path: touch, element: touching, nearer: None };
-        }
-        let (low, high) = if at_touch > 0.0 { (touch, f64::INFINITY) } else { (f64::NEG_INFINITY, touch) };
-        let mut u = if guess > low && guess < high { guess } else { touch + FIRST_STRIDE.copysign(at_touch) };
-        let mut search = PathSearch::between(low, high, FIRST_STRIDE);
-        let mut found = element(u);
-        for _ in 0..300 {
-            let (RadialForce { force, slope }, there) = found;
-            let newton = u - force / slope;
-            // A millionth of a millionth of a nanometre: the rounding of micrometre paths.
-            if force == 0.0 || ((newton - u).abs() < 1e-21 && force.abs() <= self.no_force(&there)) {
-                return ElementAtRest { path: u, element: there, nearer: None };
-            }
-            let Some(next) = search.next(u, force, newton) else { break };
-            u = next;
-            found = element(u);
-        }
-        let (RadialForce { force, slope }, here) = found;
-        if force.abs() <= self.no_force(&here) || !force.is_finite() {
-            return ElementAtRest { path: u, element: here, nearer: None };
-        }
-        let beside = search.neighbour(force).map(|path| (path, element(path)));
-        match beside {
-            Some((path, (other, there))) if force * other.force < 0.0 && other.force.is_finite() => {
-                let share = force / (force - other.force);
-                let mut between = here;
-                between.inner.force += (there.inner.force - here.inner.force) * share;
-                between.outer.force += (there.outer.force - here.outer.force) * share;
-                let nearer = if force.abs() <= other.force.abs() { u } else { path };
-                // Where it pushes its tangent is that of what it does between the two.
-                let path = if slope.abs() >= other.slope.abs() { u } else { path };
-                ElementAtRest { path, element: between, nearer: Some(nearer) }
-            }
-            _ => ElementAtRest { path: u, element: here, nearer: None },
-        }
     }
 
     /// Refuses elements whose balance lies where the contact law near the defect has no answer: their search ends
@@ -354,16 +329,6 @@ impl Model {
 /// Longest step of a ring in an iteration (m): after all of them it may have moved by metres.
 fn longest_step(iteration: i32) -> f64 {
     LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
-}
-
-/// An element in radial balance.
-pub(super) struct ElementAtRest {
-    /// Its path (m).
-    pub(super) path: f64,
-    /// Its contacts, with the forces of the balance.
-    element: Linearized,
-    /// Where the balance lies between this path and the next number: that of the two at which less force is left.
-    pub(super) nearer: Option<f64>,
 }
 
 /// What the search is given. Velocities in `still` stay; where the rings are follows in each iteration.
