@@ -74,3 +74,40 @@ fn straight_rollers_start_beside_defects_of_every_body() {
         }
     }
 }
+
+/// Three preloaded balls, one of which stands with its flattened side towards the raceways of an outer ring that turns
+/// fast: from where the host holds that ring the search for the shaft's place ended on a ledge, 21 N short.
+#[test]
+fn a_shaft_finds_its_place_between_three_balls_of_which_one_is_worn() {
+    let scene = r#"
+        name = "three-balls"
+        gravity_m_s2 = [0.0, 0.0]
+        bearing = { element_diameter_mm = 9.207846868375288, pitch_diameter_mm = 39.69855116940229, element_count = 3,
+            conformity_inner = 0.5418311504892677, conformity_outer = 0.5020353924135197,
+            radial_clearance_um = -6.661130184825143, outer_compliance_m_n = 1.987772316340408e-11,
+            youngs_modulus_gpa = 207.0, poissons_ratio = 0.3, density_kg_m3 = 7800.0 }
+        contact = { law = "hertz", damping = "hunt-crossley", damping_chi_s_m = 43.517523779915955 }
+        cage = { initial_angle_deg = 136.051194557594 }
+        shaft = { motion = "internal", speed_hz = 0.0, load_n = [-21.04788467050047, -12.673127534101988],
+            mass_kg = 0.007246800626627155, damping_n_s_m = 2.499002197568621, stiffness_n_m = 0.0 }
+        housing = { motion = "host", speed_hz = 654.7213494713124 }
+        [defect]
+        on = "element"
+        element = 2
+        angle_deg = -28.046463718615115
+        tilt_deg = -14.389073384442872
+        length_deg = 72.35224503152276
+        depth_um = 15.329727035667183
+        edge_slope_deg = 16.53441229791677
+    "#;
+    let mut bearing = Simulation::new(brinell_scene_file::from_toml(scene).unwrap(), None).unwrap();
+    let place = ["housing.x", "housing.y"].map(|name| bearing.reference(name).unwrap());
+    bearing.set_reals(&place, &[1.3336916224803659e-6, 2.2805856387330655e-6]).unwrap();
+    bearing.initialize(0.0).unwrap();
+    let mut bearing = Named(bearing);
+    for (name, load) in [("shaft.force.x", -21.04788467050047), ("shaft.force.y", -12.673127534101988)] {
+        // What a search leaves, a hundred times.
+        let force = bearing.get(name);
+        assert!((force + load).abs() < 1e-8, "{name}: {force}");
+    }
+}
