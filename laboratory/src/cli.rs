@@ -24,7 +24,7 @@ enum Command {
     User(Box<UserCommand>),
     /// Error against run time, measured on this machine: Markdown, CSV and figures
     Report(Report),
-    /// Computes every claim of the paper anew: docs/validation.md and its figures
+    /// Computes every claim of the paper anew: docs/evidence/validation.md and its figures
     Validate(Validate),
     /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
     Dist(Dist),

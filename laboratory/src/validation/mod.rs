@@ -1,5 +1,5 @@
-//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its
-//! figures.
+//! The command `validate`: every claim of the paper beside what comes out here, into `docs/evidence/validation.md` and
+//! its figures.
 //!
 //! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to
 //! `target/validation`.
@@ -92,9 +92,9 @@ impl Values {
     }
 }
 
-/// The command. `docs` is where `validation.md` and `figures/` are.
+/// The command. `docs` is where `evidence/validation.md` and `figures/` are.
 pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
-    fs::create_dir_all(docs).with_context(|| docs.display().to_string())?;
+    fs::create_dir_all(docs.join("evidence")).with_context(|| docs.display().to_string())?;
     let mut values = Values { folder: folder(project).join("tables") };
     let wanted = |part: Part, text: &str| {
         let wanted = options.only.is_none_or(|only| only == part);
@@ -133,7 +133,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
         );
         return Ok(());
     }
-    let path = docs.join("validation.md");
+    let path = docs.join("evidence/validation.md");
     whole_file::write(&path, values.filled(TEMPLATE)?)?;
     println!("{}", path.display());
     if options.figures {

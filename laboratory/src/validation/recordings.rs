@@ -1,7 +1,7 @@
 //! Recordings of a machine, sized singly and by group, and the scene of one of them beside it.
 //!
 //! The recordings belong to others and are not part of this project. What was found in them is:
-//! `docs/validation-recordings.md` is written anew only when recordings are given.
+//! `docs/evidence/validation-recordings.md` is written anew only when recordings are given.
 
 use std::fmt::Write;
 use std::fs;
@@ -350,7 +350,7 @@ fn write_beside(
 
 /// Where the table of recordings is kept.
 pub fn kept(docs: &Path) -> PathBuf {
-    docs.join("validation-recordings.md")
+    docs.join("evidence/validation-recordings.md")
 }
 
 /// The table as it was written last.
