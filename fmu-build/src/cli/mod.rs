@@ -10,8 +10,8 @@ use clap::{Parser, Subcommand};
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::Project;
-use crate::{run, sweep};
-use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Run, Scenes, Size, Sweep};
+use crate::{paper, run, sweep};
+use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Paper, Run, Scenes, Size, Sweep};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
@@ -42,6 +42,8 @@ pub enum Command {
     Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
+    /// A figure or table of the paper behind the model, computed anew: each claim with its outcome
+    Paper(Paper),
     /// Lists the shipped scenes, or writes the files of those that are named
     Scenes(Scenes),
     /// Writes a commented scene of a bearing of the catalogue that runs as it is
@@ -103,6 +105,10 @@ impl Command {
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
+            }
+            Command::Paper(options) => {
+                let folder = options.drawn.folder(project, "paper");
+                paper::command(project, options.part, options.json, !options.drawn.no_figure, &folder)
             }
             Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
             Command::New(options) => {

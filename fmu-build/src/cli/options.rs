@@ -15,7 +15,7 @@ use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
 use crate::shared::{Grid, Project, Version, delimiter, number, seed, speed, whole};
-use crate::{run, sweep};
+use crate::{paper, run, sweep};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -334,6 +334,19 @@ pub struct Demo {
     pub(super) output: Option<PathBuf>,
     #[command(flatten)]
     pub(super) library: LibraryChoice,
+}
+
+/// Options of `paper`.
+#[derive(Debug, Args)]
+pub struct Paper {
+    /// Which of its parts
+    #[arg(value_enum)]
+    pub(super) part: paper::Part,
+    /// Print the claims as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
 }
 
 /// Options of `scenes`.

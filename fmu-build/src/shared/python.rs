@@ -23,6 +23,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("contact.py", include_str!("../../python/contact.py")),
     ("demo.py", include_str!("../../python/demo.py")),
     ("host.py", include_str!("../../python/host.py")),
+    ("paper.py", include_str!("../../python/paper.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),
     ("run_figure.py", include_str!("../../python/run_figure.py")),
     ("run_page.js", include_str!("../../python/run_page.js")),

@@ -43,8 +43,8 @@ fn user(page: &str) -> std::path::PathBuf {
     folder
 }
 
-/// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
-fn said(command: &str, folder: &Path) -> String {
+/// Runs a command in a folder, with this build's program.
+pub(super) fn typed(command: &str, folder: &Path) -> std::process::Output {
     let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
     // A page that runs no example needs not their half gigabyte.
     let python = if command.contains("python") { python() } else { common::python() };
@@ -60,7 +60,12 @@ fn said(command: &str, folder: &Path) -> String {
     if let Some(library) = common::built_with_the_tests() {
         shell.env("BRINELL_LIBRARY", library);
     }
-    let output = shell.output().unwrap();
+    shell.output().unwrap()
+}
+
+/// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
+fn said(command: &str, folder: &Path) -> String {
+    let output = typed(command, folder);
     // What the program refuses is part of a transcript; a script that fails is not.
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() || command.starts_with("brinell "), "{command}: {errors}");

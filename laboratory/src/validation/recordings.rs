@@ -14,8 +14,8 @@ use brinell_analysis::sizing;
 use brinell_analysis::sizing::passages::fold;
 use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport, event_length};
 
-use super::runs::Case;
 use super::{blind, write_csv};
+use fmu_build::paper::Case;
 use fmu_build::shared::{Project, contact_map};
 
 /// Scene of the rig.
@@ -80,7 +80,7 @@ impl Known {
 
 /// The table of recordings and the comparison with the scene, as Markdown.
 pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
-    let case = Case::shipped(project, SCENE)?;
+    let case = Case::shipped(SCENE)?;
     let [length, depth, slope] = FLANKS;
     let with_flanks = case.clone().with_flanks(length, depth, slope);
     let scene = Scene { defects: Vec::new(), ..case.scene.clone() };
@@ -197,7 +197,7 @@ fn inner_beside(project: &Project, recorded: &[Inside]) -> Result<String> {
     if recorded.is_empty() {
         return Ok(String::new());
     }
-    let case = Case::shipped(project, INNER_SCENE)?;
+    let case = Case::shipped(INNER_SCENE)?;
     let mut text = String::from(
         "\n### The inner scene beside the recording of 5°\n\n\
          | shaft (Hz) | | looks like | two loudest (° apart) | impacts (° after the first) | onset before the first \

@@ -1,4 +1,5 @@
-"""The validation's figures from target/validation. Arguments: that folder, and the folder for the figures."""
+"""A figure of the paper, or of the validation. Arguments: its name, the folder of its data, the figure's path without
+suffix."""
 
 import sys
 from pathlib import Path
@@ -8,7 +9,7 @@ import plotting
 from plotting import BLUE, GREEN, ORANGE, SKY, VERMILION, plt
 from scipy import signal
 
-data_folder, figures = Path(sys.argv[1]), Path(sys.argv[2])
+name, data_folder, stem = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 
 
 def read(name):
@@ -55,9 +56,9 @@ def four_events():
     axes[0].set_ylim(-1.2 * spread, 1.6 * spread)
     low, high = axes[1].get_ylim()
     axes[1].set_ylim(low, high + 0.55 * (high - low))
-    for at, text in ((0.0, "leading\nedge"), (free, "free"), (again, "carries again"), (10.997, "trailing\nedge")):
+    for at, text in ((0.0, "1 enters"), (free, "2 free"), (again, "3 chatter"), (10.997, "4 leaves")):
         # Names that would meet stand on two heights.
-        event(axes[1], at, text, 0.8 if text in ("free", "trailing\nedge") else 0.98, "right" if at == 0 else "left")
+        event(axes[1], at, text, 0.8 if text[0] in "24" else 0.98, "right" if at == 0 else "left")
         for axis in (axes[0], axes[2]):
             axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
     axes[0].set_title("Line spall of 15.8°, 500 N, 10 Hz: one element passes")
@@ -65,20 +66,34 @@ def four_events():
     axes[-1].set_xlabel("time from the leading edge (ms)")
     axes[-1].set_xlim(-2, 20)
     figure.align_ylabels()
-    plotting.save(figure, figures / "validation-four-events")
+    plotting.save(figure, stem)
+
+
+def draw_profile(axis):
+    profile = read("profile")
+    axis.plot(profile["arc"] * 1e3, profile["depth"] * 1e6, color=SKY, label="depth of the stand-in trace")
+    axis.plot(profile["arc"] * 1e3, profile["path"] * 1e6, color="black", label="path of a rigid element")
+    axis.invert_yaxis()
+    axis.set_xlabel("arc from the middle of the spall (mm)")
+    axis.set_ylabel("depth (µm)")
+    legend_above(axis, ncols=2)
+
+
+def profile():
+    figure, axis = plt.subplots(figsize=(plotting.WIDTH, 3.4))
+    figure.suptitle("Etched spall of 0.8 mm: a stand-in for the unpublished trace", x=0.01, ha="left")
+    draw_profile(axis)
+    plotting.save(figure, stem)
 
 
 def epps():
-    profile, data = read("profile"), read("epps")
-    figure, axes = plt.subplots(4, 1, figsize=(plotting.WIDTH, 9.0))
-    top = axes[0]
-    top.plot(profile["arc"] * 1e3, profile["depth"] * 1e6, color=SKY, label="depth of the stand-in trace")
-    top.plot(profile["arc"] * 1e3, profile["path"] * 1e6, color="black", label="path of a rigid element")
-    top.invert_yaxis()
-    top.set_xlabel("arc from the middle of the spall (mm)")
-    top.set_ylabel("depth (µm)")
+    data = read("epps")
+    whole = (data_folder / "profile.csv").exists()
+    figure, axes = plt.subplots(3 + whole, 1, figsize=(plotting.WIDTH, 6.8 + 2.2 * whole))
     figure.suptitle("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz", x=0.01, ha="left")
-    legend_above(top, ncols=2)
+    if whole:
+        draw_profile(axes[0])
+        axes = axes[1:]
     time = data["time"] * 1e3
     panels = (
         ("housing.ay", 1.0, "housing, y\n(m/s²)"),
@@ -91,8 +106,10 @@ def epps():
         ("trace map", BLUE, "-", "trace, law map"),
         ("sharp map", SKY, ":", "90° edges, law map"),
     )
-    for axis, (name, scale, label) in zip(axes[1:], panels):
+    for axis, (name, scale, label) in zip(axes, panels):
         for case, colour, style, text in curves:
+            if f"{case} {name}" not in data:
+                continue
             axis.plot(
                 time,
                 scale * data[f"{case} {name}"],
@@ -105,14 +122,14 @@ def epps():
         axis.set_xlim(-0.5, 2.5)
         for edge in (0.0, 0.5447):
             axis.axvline(edge, color="black", linewidth=0.8, linestyle=":")
-    axes[2].invert_yaxis()
-    legend_above(axes[1], ncols=2)
+    axes[1].invert_yaxis()
+    legend_above(axes[0], ncols=2)
     axes[-1].set_xlabel("time from the leading edge (ms); dotted: both edges")
     figure.align_ylabels()
-    plotting.save(figure, figures / "validation-epps")
+    plotting.save(figure, stem)
 
 
-def spectrograms(name, rows, title):
+def spectrograms(rows, title):
     """Entry and exit of averaged passages: one row a case, one column an event."""
     data = read("averages")
     time = data["time"] * 1e3
@@ -154,7 +171,7 @@ def spectrograms(name, rows, title):
         axis.set_xlabel("time from the edge (ms)")
     figure.colorbar(mesh, ax=axes, label="level (dB re maximum of the passage)", shrink=0.6, pad=0.01)
     figure.suptitle(title, x=0.01, ha="left")
-    plotting.save(figure, figures / name)
+    plotting.save(figure, stem)
 
 
 def beside():
@@ -207,24 +224,22 @@ def beside():
     bottom.set_xlabel("harmonic of the ball pass frequency in the averaged envelope")
     bottom.set_ylabel("amplitude / that of the first")
     bottom.legend(ncols=len(speeds))
-    plotting.save(figure, figures / "validation-beside")
+    plotting.save(figure, stem)
 
 
-four_events()
-epps()
-spectrograms(
-    "validation-spectrograms",
-    (("tb1", "TB1, 500 N"), ("tb2-500", "TB2, 500 N"), ("tb2-600", "TB2, 600 N")),
-    "Nominal depth of 100 µm, rigid rings",
+NOMINAL = (("tb1", "TB1, 500 N"), ("tb2-500", "TB2, 500 N"), ("tb2-600", "TB2, 600 N"))
+ASSUMED = (
+    ("30um-500", "30 µm, 500 N"),
+    ("30um-600", "30 µm, 600 N"),
+    ("soft-500", "compliant, 500 N"),
+    ("soft-600", "compliant, 600 N"),
 )
-spectrograms(
-    "validation-assumptions",
-    (
-        ("30um-500", "30 µm, 500 N"),
-        ("30um-600", "30 µm, 600 N"),
-        ("soft-500", "compliant, 500 N"),
-        ("soft-600", "compliant, 600 N"),
-    ),
-    "TB2 with its floor within reach: two assumptions",
-)
-beside()
+DRAWN = {
+    "four-events": four_events,
+    "profile": profile,
+    "epps": epps,
+    "spectrograms": lambda: spectrograms(NOMINAL, "Nominal depth of 100 µm, rigid rings"),
+    "assumptions": lambda: spectrograms(ASSUMED, "TB2 with its floor within reach: two assumptions"),
+    "beside": beside,
+}
+DRAWN[name]()

@@ -1,7 +1,4 @@
-//! Runs of scenes for the validation: variants of a shipped scene, sampled at an even rate, averaged over passages.
-
-use std::fs;
-use std::path::Path;
+//! Runs of the paper's scenes: variants of a shipped one, sampled at an even rate, averaged over passages.
 
 use anyhow::{Context, Result};
 use brinell::geometry::kinematics;
@@ -10,8 +7,7 @@ use brinell::simulation::Simulation;
 use brinell_analysis::sizing::Raceway;
 use brinell_analysis::sizing::passages::fold;
 
-use fmu_build::package::Model;
-use fmu_build::shared::{Project, contact_map};
+use crate::shared::{Project, contact_map, shipped};
 
 /// A scene with the text of its profile.
 #[derive(Debug, Clone)]
@@ -23,14 +19,13 @@ pub struct Case {
 
 impl Case {
     /// A shipped scene.
-    pub fn shipped(project: &Project, name: &str) -> Result<Self> {
-        // Without the source the scenes are looked for where the user stands.
-        let path = project.source().unwrap_or(Path::new("")).join("scenes").join(name).with_extension("toml");
-        let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        let scene = brinell_scene_file::from_toml(&text).with_context(|| path.display().to_string())?;
-        let names_profile = !scene.profile_names().is_empty();
-        let profiles = if names_profile { Model::read(&path)?.profiles } else { Vec::new() };
-        Ok(Self { scene, profile: profiles.into_iter().next().map(|profile| profile.text) })
+    ///
+    /// # Errors
+    /// Of a name that is none.
+    pub fn shipped(name: &str) -> Result<Self> {
+        let files = shipped::files_of(name).with_context(|| shipped::meant(name))?;
+        let scene = brinell_scene_file::from_toml(files[0].1).with_context(|| name.to_owned())?;
+        Ok(Self { scene, profile: files.get(1).map(|(_, text)| (*text).to_owned()) })
     }
 
     /// The same under another contact law.
