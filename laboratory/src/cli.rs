@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
-use fmu_build::cli::Command as UserCommand;
+use fmu_build::cli::{Command as UserCommand, Talk};
 use fmu_build::shared::Project;
 
 use crate::{dist, report, site, validation};
@@ -16,6 +16,8 @@ use crate::{dist, report, site, validation};
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
+    #[command(flatten)]
+    talk: Talk,
 }
 
 #[derive(Debug, Subcommand)]
@@ -86,6 +88,7 @@ struct Validate {
 impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
+        self.talk.apply();
         let project = Project::find();
         match self.command {
             Command::User(command) => command.execute(&project),

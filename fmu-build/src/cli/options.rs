@@ -56,7 +56,8 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
     pub(super) step: Option<f64>,
-    /// Columns beside the time, separated by commas; * stands for any characters [default: all]
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all; from 20 000 points on
+    /// without those of single elements]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(super) columns: Vec<String>,
     /// What the table is written as
@@ -97,6 +98,9 @@ pub struct Run {
     /// Write an HTML page for a browser: signals, path over the defect, spectra
     #[arg(long)]
     pub(super) html: bool,
+    /// Open the page in the browser
+    #[arg(long, requires = "html")]
+    pub(super) open: bool,
     /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
@@ -132,6 +136,7 @@ impl Run {
             wav,
             figure: !self.no_figure,
             page: self.html,
+            open: self.open,
         })
     }
 }
@@ -355,6 +360,9 @@ pub struct Scenes {
     /// Names of shipped scenes whose files are written
     #[arg(value_name = "NAME")]
     pub(super) names: Vec<String>,
+    /// Print the list as JSON
+    #[arg(long, conflicts_with = "names")]
+    pub(super) json: bool,
     /// Folder for the files [default: the current one]
     #[arg(short, long, value_name = "DIR", requires = "names")]
     pub(super) output: Option<PathBuf>,
@@ -383,6 +391,9 @@ pub struct Catalogue {
     /// How the names begin, as 62
     #[arg(value_name = "FILTER", default_value = "", hide_default_value = true)]
     pub(super) filter: String,
+    /// Print them as JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]

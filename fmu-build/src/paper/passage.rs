@@ -17,6 +17,9 @@ const NAMES: [&str; 5] =
 /// Length of Epps' spall along the raceway (m).
 const EPPS_LENGTH: f64 = 0.8e-3;
 
+/// Names of columns with their units.
+pub type Names = Vec<(String, &'static str)>;
+
 /// The signals around one passage of element 1.
 #[derive(Debug, Clone)]
 pub struct Passage {
@@ -164,7 +167,7 @@ fn rigid_drop(case: &Case) -> Result<f64> {
 ///
 /// # Errors
 /// Of a scene whose surface is no profile.
-pub fn profile(case: &Case) -> Result<(Vec<(String, &'static str)>, [Vec<f64>; 3])> {
+pub fn profile(case: &Case) -> Result<(Names, [Vec<f64>; 3])> {
     let (surface, path) = path_of(case)?;
     let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
     let radius = case.scene.bearing.outer_raceway_radius();
