@@ -122,7 +122,7 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
         textcoords="offset points", fontsize=9,
     )
     all_of_it.set(ylabel="sensor, y\n(m/s²)", xlabel="time (ms)", xlim=(0, table["time"][-1] * 1e3))
-    all_of_it.set_title("A rolling element crosses an etched spall: the FMU, stepped by fmpy")
+    all_of_it.set_title("A rolling element crosses an etched spall (a stand-in trace): the FMU, stepped by fmpy")
 
     housing.plot(ms, signals["housing.ay"], color=VERMILION)
     housing.set_ylabel("housing, y\n(m/s²)")
@@ -152,10 +152,18 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     force.legend(loc="lower right", bbox_to_anchor=(1, 0.96), ncols=3)
 
     profile, rigid = (np.interp(signals["arc"], raceway.arc, of) * 1e6 for of in (raceway.depth, raceway.path))
-    path.fill_between(ms, profile, 1e3, color="#c8c8c8", linewidth=0, label="outer ring")
+    path.fill_between(ms, profile, 1e3, color="#c8c8c8", linewidth=0, label="outer ring, unloaded")
     path.plot(ms, rigid, color="black", linestyle="--", linewidth=1, label="path of a rigid element")
     path.plot(ms, signals["path"] * 1e6, color=GREEN, linewidth=1.6, label=f"path of element {element}")
     path.set_ylabel("depth below the\nraceway (µm)")
+    before = float(np.median(signals["path"][ms < 0])) * 1e6
+    path.annotate(
+        f"{before:.0f} µm inside: so far the load\npresses ball and raceway flat",
+        (0.85 * ms[0], before),
+        xytext=(0.85 * ms[0], 3.4 * before),
+        arrowprops={"arrowstyle": "-", "linewidth": 0.7},
+        fontsize=9,
+    )
     lowest = 1.15 * max(raceway.depth.max(), signals["path"].max()) * 1e6
     path.set_ylim(lowest, -0.25 * lowest)
     path.legend(loc="upper right", ncols=3)

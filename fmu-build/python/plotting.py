@@ -37,7 +37,9 @@ plt.rcParams.update(
 
 
 # Samples of a curve across a figure beyond which they are a solid block; bands then have so many parts.
-MOST_SAMPLES, PARTS = 12_000, 120
+MOST_SAMPLES, PARTS = 12_000, 480
+# Parts that a turn of the shaft needs, or its passages through the load zone beat with them.
+PARTS_OF_A_TURN = 8
 
 
 def is_long(time):
@@ -52,14 +54,26 @@ def bands_said(time):
     return "; in each part of the time: line the middle value, dark two thirds of all, light all of them"
 
 
-def curve(axis, time, values, colour, label):
+def windows(time, turn):
+    """First and last sample of each part: parts side by side, or as long as a turn where they are too few for one."""
+    edges = np.linspace(0, len(time), PARTS + 1)
+    part = (time[-1] - time[0]) / PARTS
+    if turn and part > turn / PARTS_OF_A_TURN:
+        half = 0.5 * max(part, turn) / (time[-1] - time[0]) * len(time)
+        middle = 0.5 * (edges[1:] + edges[:-1])
+        return np.maximum(middle - half, 0).astype(int), np.minimum(middle + half, len(time)).astype(int)
+    return edges[:-1].astype(int), edges[1:].astype(int)
+
+
+def curve(axis, time, values, colour, label, turn=None):
     """A line through the samples, or where they are too many: all of them, the middle two thirds and the middle one in
-    each of equal parts of the time."""
+    each of equal parts of the time. `turn`: time of one turn of the shaft."""
     if not is_long(time):
         axis.plot(time, values, color=colour, label=label, linewidth=0.9)
         return
-    parts = np.array_split(values, PARTS)
-    middle = [times.mean() for times in np.array_split(time, PARTS)]
+    first, last = windows(time, turn)
+    parts = [values[a:b] for a, b in zip(first, last)]
+    middle = np.linspace(time[0], time[-1], 2 * PARTS + 1)[1::2]
     # What the first and the last part stand for reaches to the ends.
     middle[0], middle[-1] = time[0], time[-1]
     low, lower, half, upper, high = np.array([np.quantile(part, [0.0, 1 / 6, 0.5, 5 / 6, 1.0]) for part in parts]).T

@@ -1,7 +1,9 @@
 """Overview of a run: what moves, the forces on both rings, the outer forces of the elements, and the sensor; with the
 spectrum of its envelope, if there is one. Where a run is too long for its samples to be seen, bands show what they do.
 
-Arguments: the signals as a NumPy file, the figure without its ending, the spectrum's CSV if there is one."""
+Arguments: the signals as a NumPy file; the recorder's, filtered, or "-"; the figure without its ending; the spectrum's
+CSV if there is one. What the recorder has is drawn from it: samples at communication points beat with what rings faster.
+"""
 
 import json
 import sys
@@ -11,15 +13,27 @@ import numpy as np
 import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, VERMILION, plt
 
-path = Path(sys.argv[2])
+path = Path(sys.argv[3])
 data = plotting.signals(sys.argv[1])
+recording = plotting.signals(sys.argv[2]) if sys.argv[2] != "-" else {"time": []}
 in_seconds = data["time"][-1] > 2.0
-time = data["time"] * (1.0 if in_seconds else 1e3)
+factor = 1.0 if in_seconds else 1e3
+time = data["time"] * factor
+# Time of a turn of the shaft, at the mean speed.
+speed = abs(float(np.mean(data["shaft.speed"]))) if "shaft.speed" in data else 0.0
+turn = factor * 2 * np.pi / speed if speed > 0 else None
+
+
+def filtered(name):
+    """Whether the recorder has it through its filter."""
+    rings = name.endswith((".ax", ".ay", ".force.x", ".force.y")) and not name.startswith("element")
+    return name in recording and len(recording["time"]) > 1 and (rings or name.startswith("sensor"))
 
 
 def curves(axis, names, colours, scale=1.0, labels=None):
     for name, colour, label in zip(names, colours, labels or names):
-        plotting.curve(axis, time, data[name] * scale, colour, label)
+        source = recording if filtered(name) else data
+        plotting.curve(axis, source["time"] * factor, source[name] * scale, colour, label, turn)
 
 
 def panels():
@@ -53,7 +67,7 @@ def panels():
         if plotting.is_long(time):
             # Each element's way through the load zone cannot be seen; what the one that carries most carries can.
             largest = np.max([data[f"element[{j}].force.outer"] for j in range(1, count + 1)], axis=0)
-            plotting.curve(axis, time, largest, GREEN, None)
+            plotting.curve(axis, time, largest, GREEN, None, turn)
             return
         for j in range(1, count + 1):
             colour = plt.cm.viridis((j - 1) / max(count, 2))
@@ -99,7 +113,7 @@ def envelope(axis, path):
 
 
 drawn = list(panels())
-spectra = [Path(argument) for argument in sys.argv[3:]]
+spectra = [Path(argument) for argument in sys.argv[4:]]
 heights = [1.5] * len(drawn) + [2.6] * len(spectra)
 figure, axes = plt.subplots(
     len(heights), 1, figsize=(plotting.WIDTH, 0.6 + sum(heights)), height_ratios=heights, squeeze=False

@@ -7,10 +7,10 @@ const FONT = { family: "system-ui, sans-serif", size: 13 };
 // Points across a window: more than there are pixels.
 const ACROSS = 2000;
 const GRID = { gridcolor: "#e4e4e4", zeroline: false };
-// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below, in three lines at
+// Above a plot stands its toolbar alone, however narrow the window: what curves are is said below, in five lines at
 // most.
 const MARGIN = { l: 80, r: 20, t: 40, b: 45 };
-const MARGIN_OF_LEGEND = { ...MARGIN, b: 120 };
+const MARGIN_OF_LEGEND = { ...MARGIN, b: 150 };
 const LEGEND = { orientation: "h", yref: "container", y: 0, yanchor: "bottom" };
 
 function numbers(text) {
@@ -175,12 +175,13 @@ function heights({ log, floor, top }) {
 // A frequency and its multiples: upright lines, with a gap behind each.
 function markTrace(mark, spectrum) {
   const up = heights(spectrum);
-  const told = (f, k) => `${k ? `${k + 1} × ` : ""}${mark.name} = ${f.toPrecision(5)} ${spectrum.unit}`;
+  const told = (f, k) => `${mark.words[k]} = ${f.toPrecision(5)} ${spectrum.unit}`;
   return {
     x: mark.at.flatMap((f) => [...up.map(() => f), null]),
     y: mark.at.flatMap(() => [...up, null]),
     text: mark.at.flatMap((f, k) => [...up.map(() => told(f, k)), ""]),
-    name: `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`,
+    name: mark.hidden ? mark.name : `${mark.name} ${mark.at[0].toPrecision(4)} ${spectrum.unit}`,
+    visible: mark.hidden ? "legendonly" : true,
     mode: "lines", opacity: 0.8, line: { color: mark.colour, width: 1.5, dash: mark.dash },
     hovertemplate: "%{text}<extra></extra>",
   };
@@ -201,7 +202,7 @@ function spectrumLayout(spectrum) {
   return {
     font: FONT, height: 480, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND,
     xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis, standoff: 8 } },
-    yaxis: { ...GRID, exponentformat: "power", title: { text: spectrum.label }, ...scale },
+    yaxis: { ...GRID, exponentformat: "power", automargin: true, title: { text: spectrum.label, standoff: 6 }, ...scale },
   };
 }
 
@@ -210,7 +211,60 @@ function drawSpectrum(graph, spectrum) {
   return Plotly.newPlot(graph, traces, spectrumLayout(spectrum), CONFIG);
 }
 
+// The squared envelope of a band of the sensor's signal, as shares of its mean: amplitudes and the step of frequency.
+function envelope(signal, low, high) {
+  const n = 2 ** Math.floor(Math.log2(signal.values.length)), line = 1 / (n * signal.step);
+  const re = Float64Array.from(signal.values.subarray(0, n)), im = new Float64Array(n);
+  Motion.transform(re, im);
+  for (let k = 0; k < n; k++) {
+    const inside = k < n / 2 && k * line >= low && k * line <= high;
+    // Turned round, so that the same transform goes back.
+    [re[k], im[k]] = inside ? [2 * re[k], -2 * im[k]] : [0, 0];
+  }
+  Motion.transform(re, im);
+  const square = re.map((v, i) => v * v + im[i] * im[i]), mean = square.reduce((sum, v) => sum + v, 0) / n;
+  const hann = square.map((v, i) => (v / mean - 1) * (1 - Math.cos((2 * Math.PI * (i + 0.5)) / n)));
+  const zero = new Float64Array(n);
+  Motion.transform(hann, zero);
+  return { step: line, y: hann.subarray(0, n / 2).map((v, k) => (2 * Math.hypot(v, zero[k])) / n) };
+}
+
+// Another band for the spectrum of the envelope, where the page has every sample.
+function offerBand(graph, spectrum) {
+  const by = (name) => document.getElementById(`band-${name}`);
+  const signal = DATA.motion && DATA.motion.signal;
+  [by("low").value, by("high").value] = spectrum.band.map((f) => digits(1e-3 * f));
+  by("take").disabled = !signal || DATA.thinned;
+  by("take").addEventListener("click", () => {
+    const { step, y } = envelope(signal, 1e3 * by("low").value, 1e3 * by("high").value);
+    const shown = Math.min(y.length, Math.ceil(spectrum.shown / step));
+    const x = Array.from({ length: shown }, (_, i) => i * step), last = spectrum.marks.length;
+    const top = 1.08 * y.subarray(Math.ceil(spectrum.step / step) + 2, shown).reduce((a, b) => Math.max(a, b), 0);
+    Plotly.restyle(graph, { x: [x], y: [Array.from(y.subarray(0, shown))] }, [last]);
+    Plotly.relayout(graph, { "yaxis.range": [0, top] });
+  });
+}
+
+function drawSpectrogram(graph, { time, step, rows, level, name }) {
+  const [x, values] = [numbers(time), numbers(level)];
+  const z = Array.from({ length: rows }, (_, row) => values.subarray(row * x.length, (row + 1) * x.length));
+  const trace = {
+    type: "heatmap", x, y: z.map((_, row) => row * step), z, zmin: -60, zmax: 0, colorscale: "Viridis",
+    colorbar: { title: { text: "dB" } }, hovertemplate: `%{x:.4f} s, %{y:.0f} Hz: %{z:.0f} dB<extra>${name}</extra>`,
+  };
+  const layout = {
+    font: FONT, height: 460, margin: MARGIN,
+    xaxis: { title: { text: "time (s)" } }, yaxis: { title: { text: "frequency (Hz)" } },
+  };
+  return Plotly.newPlot(graph, [trace], layout, CONFIG);
+}
+
 const drawn = [drawSignals(document.getElementById("signals"))];
 DATA.paths.forEach((defect, k) => drawn.push(drawPath(document.getElementById(`path-${k}`), defect)));
 DATA.spectra.forEach((spectrum, k) => drawn.push(drawSpectrum(document.getElementById(`spectrum-${k}`), spectrum)));
-Promise.all(drawn).then(() => (document.body.dataset.state = "drawn"));
+if (DATA.spectrogram) drawn.push(drawSpectrogram(document.getElementById("spectrogram"), DATA.spectrogram));
+Promise.all(drawn).then(() => {
+  startMotion();
+  DATA.spectra.forEach((one, k) => one.band && offerBand(document.getElementById(`spectrum-${k}`), one));
+  document.body.dataset.state = "drawn";
+});

@@ -12,19 +12,19 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import plotting
 import plotly
+import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+from run_motion import motion
+from run_spectra import spectra, spectrogram
 
 # Numbers of all signals together, 5.3 bytes each in the page.
 MOST_NUMBERS = 400_000
-# Points of the paths over one defect, and of one spectrum; passages of which more are a solid block.
-MOST_OF_PATH, MOST_OF_SPECTRUM, MOST_PASSAGES = 20_000, 40_000, 60
+# Points of the paths over one defect; passages of which more are a solid block.
+MOST_OF_PATH, MOST_PASSAGES = 20_000, 60
 # Wine, indigo, olive and grey beside the palette of all figures: ten that are told apart, then the same with dashes.
 COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, "#882255", "#332288", "#8C8C1A", "#666666"]
 STYLES = [(colour, dash) for dash in ("solid", "dash") for colour in COLOURS]
-MARKS = {"BPFO": (BLUE, "solid"), "BPFI": (VERMILION, "dash"), "2 BSF": (GREEN, "dashdot"), "FTF": (PURPLE, "dot")}
-HARMONICS = 5
 
 
 def packed(values):
@@ -130,7 +130,7 @@ def signals(run, count):
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
     if every > 1:
         said += f". The run is long: of each {every} samples the page has the least and the greatest"
-    return shown, said
+    return shown, said, every > 1
 
 
 def short(name, count):
@@ -220,81 +220,6 @@ def path(run, about, defect, number):
     }
 
 
-def marks(frequencies, top):
-    found = []
-    for name, (colour, dash) in MARKS.items():
-        if 0 < frequencies[name] <= top:
-            count = 1 if name == "FTF" else min(HARMONICS, int(top / frequencies[name]))
-            found.append(
-                {
-                    "name": name,
-                    "colour": colour,
-                    "dash": dash,
-                    "at": [k * frequencies[name] for k in range(1, count + 1)],
-                }
-            )
-    return found
-
-
-def spectrum(x, y, wide, frequencies, **words):
-    """What is drawn of a spectrum: where there are many points, the greatest of several."""
-    every = -(-len(y) // MOST_OF_SPECTRUM)
-    step = float(x[1] - x[0])
-    if every > 1:
-        x, y = x[: len(y) // every * every], y[: len(y) // every * every].reshape(-1, every).max(axis=1)
-    beyond = np.arange(len(y)) * step * every > 0.5 * wide
-    top, middle = float(y[beyond].max()), float(np.median(y[beyond]))
-    return {
-        "step": step * every,
-        "y": packed(y),
-        "top": 1.5 * top if words["log"] else 1.08 * top,
-        "floor": max(0.1 * middle, 1e-7 * top) if words["log"] else 0.0,
-        "marks": marks(frequencies, float(x[-1])),
-        **words,
-    }
-
-
-def spectra(about):
-    if about["envelope"]:
-        data = plotting.read_csv(about["envelope"])
-        said = json.loads(Path(about["envelope"]).with_suffix(".json").read_text(encoding="utf-8"))
-        low, high = (f / 1e3 for f in said["band_hz"])
-        at = f", at the mean speed of {said['mean_speed_hz']:.4g} turns per second" if "mean_speed_hz" in said else ""
-        yield (
-            f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; lines are {said['line_width_hz']:.2g} Hz wide",
-            spectrum(
-                data["frequency"],
-                data["amplitude"],
-                said["line_width_hz"],
-                said["frequencies_hz"],
-                log=False,
-                unit="Hz",
-                name="squared envelope",
-                axis="frequency (Hz)",
-                label="squared envelope<br>(share of its mean)",
-                shown=float(data["frequency"][-1]),
-            ),
-        )
-    if about["orders"]:
-        data, said = plotting.read_csv(about["orders"]["file"]), about["orders"]["said"]
-        yield (
-            f"Order spectrum of the acceleration, {said['from_s']:.4g} to {said['to_s']:.4g} s; "
-            f"lines are {said['line_width']:.2g} orders wide",
-            spectrum(
-                data["order"],
-                data["amplitude"],
-                said["line_width"],
-                said["orders"],
-                log=True,
-                unit="×",
-                name="acceleration",
-                axis="order (times per turn)",
-                label="amplitude (m/s²)",
-                shown=min(float(data["order"][-1]), 6 * said["orders"]["BPFI"]),
-            ),
-        )
-
-
 HEAD = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -307,6 +232,17 @@ body {{ font: 15px system-ui, sans-serif; max-width: 1200px; margin: 1.5em auto;
 h1 {{ font-size: 1.5em; margin-bottom: 0.2em; }}
 h2 {{ font-size: 1.1em; margin: 1.6em 0 0.3em; }}
 p {{ margin: 0.3em 0; color: #555; }}
+.bar {{ display: flex; flex-wrap: wrap; gap: 0.6em; align-items: center; margin: 0.5em 0; }}
+.bar input {{ flex: 1 1 200px; min-width: 120px; }}
+.bar output {{ min-width: 6em; text-align: right; font-variant-numeric: tabular-nums; }}
+.moving {{ display: flex; flex-wrap: wrap; gap: 10px; }}
+.moving canvas {{ display: block; width: 100%; }}
+#motion-bearing {{ flex: 1 1 420px; min-width: 300px; height: 560px; }}
+.beside {{ flex: 1 1 420px; min-width: 300px; }}
+#motion-zoom {{ height: 300px; }}
+#motion-signal {{ height: 260px; }}
+#around {{ position: relative; }}
+#motion-cursor {{ position: absolute; width: 1px; background: #D55E00; pointer-events: none; display: none; }}
 #errors {{ color: #b00020; white-space: pre-line; }}
 </style>
 <script>
@@ -319,33 +255,53 @@ addEventListener("unhandledrejection", (event) => tell(event.reason));
 <h1>{name}</h1>
 {lines}
 <div id="errors"></div>
-<h2>Signals</h2>
+{moving}<h2>Signals</h2>
 <p>Drag to zoom, double-click to see all.
 Zoomed out, a line goes through the least and the greatest value of each pixel.</p>
 <p id="asked"></p>
-<div id="signals"></div>
+<div id="around"><div id="signals"></div><div id="motion-cursor"></div></div>
+"""
+
+BAND = """<p>Band <input id="band-low" type="number" min="0" step="0.1" aria-label="from"> to
+<input id="band-high" type="number" min="0" step="0.1" aria-label="to"> kHz <button id="band-take">Take it</button></p>
+"""
+MOVING = """<h2>The bearing</h2>
+<p>Vermilion: forces of the elements on both rings. A click on a signal below goes to its time.</p>
+<div class="bar"><button id="motion-play">Play</button>
+<input id="motion-time" type="range" min="0" max="1" step="any" value="0" aria-label="time"><output id="motion-said"></output>
+<label>slower by <select id="motion-speed"><option value="1">1</option><option value="0.1">10</option>
+<option value="0.01" selected>100</option><option value="0.002">500</option></select></label>
+<select id="motion-defect" aria-label="defect"></select><button id="motion-sound">Sound</button></div>
+<div class="moving"><canvas id="motion-bearing"></canvas><div class="beside"><canvas id="motion-zoom"></canvas>
+<canvas id="motion-signal"></canvas></div></div>
 """
 
 
 def main():
     about = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     run = Run(about)
-    shown, said = signals(run, about["count"])
+    shown, said, thinned = signals(run, about["count"])
     if about["recorder_rate"]:
         rate = about["recorder_rate"]
         said += f". What the recorder samples at {rate:g} Hz of accelerations and forces on rings is filtered"
     paths = [path(run, about, defect, k) for k, defect in enumerate(about["defects"], 1)]
     paths = [one for one in paths if one]
     drawn = list(spectra(about))
-    data = {"panels": shown, "paths": paths, "spectra": [of for _, of in drawn]}
+    moving = motion(run, about)
+    data = {"panels": shown, "paths": paths, "spectra": [of for _, of in drawn], "motion": moving, "thinned": thinned}
+    data["spectrogram"] = spectrogram(run, about) if about["changes"] else None
     lines = "\n".join(f"<p>{html.escape(line)}</p>" for line in [about["description"], said, *about["notes"]] if line)
-    text = HEAD.format(name=html.escape(about["name"]), lines=lines)
+    text = HEAD.format(name=html.escape(about["name"]), lines=lines, moving=MOVING if moving else "")
     text += "".join(f'<h2>{html.escape(one["title"])}</h2><div id="path-{k}"></div>\n' for k, one in enumerate(paths))
     text += "".join(
-        f'<h2>{html.escape(title)}</h2><div id="spectrum-{k}"></div>\n' for k, (title, _) in enumerate(drawn)
+        f'<h2>{html.escape(title)}</h2>{BAND if one["band"] else ""}<div id="spectrum-{k}"></div>\n'
+        for k, (title, one) in enumerate(drawn)
     )
+    if data["spectrogram"]:
+        text += '<h2>Spectrogram of the acceleration</h2><div id="spectrogram"></div>\n'
     library = (Path(plotly.__file__).parent / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
-    program = (Path(__file__).parent / "run_page.js").read_text(encoding="utf-8")
+    here = Path(__file__).parent
+    program = "".join((here / name).read_text(encoding="utf-8") for name in ("run_motion.js", "run_page.js"))
     # No "</" inside a script ends it.
     told = json.dumps(data).replace("</", "<\\/")
     text += f"<script>{library}</script>\n<script>const DATA = {told};\n{program}</script>\n"

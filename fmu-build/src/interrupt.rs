@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -19,8 +19,8 @@ const OFTEN: Duration = Duration::from_millis(20);
 
 /// The signal to which a command is answering; 0 before one has come.
 static ANSWERED: AtomicUsize = AtomicUsize::new(0);
-/// Whether the command ends by itself.
-static HELD: AtomicBool = AtomicBool::new(false);
+/// How many parts of the command end by themselves.
+static HELD: AtomicUsize = AtomicUsize::new(0);
 /// Files and folders that are removed at the end.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -54,7 +54,7 @@ fn answer(signal: usize) {
     // Nobody makes anything temporary while this is held, up to the end of the program.
     let temporary = temporary_ones();
     let first = ANSWERED.swap(signal, Ordering::Relaxed) == 0;
-    if first && HELD.load(Ordering::Relaxed) {
+    if first && HELD.load(Ordering::Relaxed) > 0 {
         return;
     }
     for path in temporary.iter() {
@@ -96,7 +96,7 @@ pub(crate) fn status_of_interrupted() -> i32 {
 
 /// Waits for the end of the program, if a signal is ending it: what fails meanwhile fails for that.
 pub(crate) fn wait_if_ending() {
-    if came() && !HELD.load(Ordering::Relaxed) {
+    if came() && HELD.load(Ordering::Relaxed) == 0 {
         loop {
             thread::park();
         }
@@ -108,8 +108,17 @@ pub(crate) struct Held;
 
 impl Held {
     pub(crate) fn new() -> Self {
-        HELD.store(true, Ordering::Relaxed);
+        HELD.fetch_add(1, Ordering::Relaxed);
         Self
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        // Once a signal has come, the command goes on ending by itself.
+        if !came() {
+            HELD.fetch_sub(1, Ordering::Relaxed);
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod cli;
 pub mod commands;
 mod interrupt;
 pub mod package;
+pub mod paper;
 pub mod platforms;
 pub mod run;
 pub mod shared;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
-use fmu_build::cli::Command as UserCommand;
+use fmu_build::cli::{Command as UserCommand, Talk};
 use fmu_build::shared::Project;
 
 use crate::{dist, report, site, validation};
@@ -16,6 +16,8 @@ use crate::{dist, report, site, validation};
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
+    #[command(flatten)]
+    talk: Talk,
 }
 
 #[derive(Debug, Subcommand)]
@@ -24,7 +26,7 @@ enum Command {
     User(Box<UserCommand>),
     /// Error against run time, measured on this machine: Markdown, CSV and figures
     Report(Report),
-    /// Computes every claim of the paper anew: docs/validation.md and its figures
+    /// Computes every claim of the paper anew: docs/evidence/validation.md and its figures
     Validate(Validate),
     /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
     Dist(Dist),
@@ -86,6 +88,7 @@ struct Validate {
 impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
+        self.talk.apply();
         let project = Project::find();
         match self.command {
             Command::User(command) => command.execute(&project),

@@ -12,36 +12,20 @@ use fmu_build::shared::{Project, whole_file};
 
 use crate::scene_page::scene_page;
 
-/// Chapters: a heading, and the pages under it in their order. Pages that are not named come last.
-const CHAPTERS: [(&str, &[&str]); 5] = [
-    ("First hours", &["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"]),
-    (
-        "Use",
-        &[
-            "guide.md",
-            "runs.md",
-            "sweeps.md",
-            "systems.md",
-            "platforms.md",
-            "reference/scenes.md",
-            "scene.md",
-            "reference/variables.md",
-            "reference/commands.md",
-            "sizing.md",
-            "modes.md",
-            "fmi2.md",
-            "fmi3.md",
-        ],
-    ),
-    ("What is modelled", &["explanation/model.md"]),
-    ("How right it is", &["error-vs-run-time.md", "validation.md", "signals.md", "contact.md", "stability.md"]),
-    ("Behind it", &[]),
+/// Chapters: a heading, the folder of its pages, and those of them that come first, in this order.
+const CHAPTERS: [(&str, &str, &[&str]); 6] = [
+    ("First hours", "tutorials", &["catalogue.md", "recording.md", "data-set.md", "rotor.md"]),
+    ("How to", "how-to", &["hosting.md", "step.md", "defects.md", "sensors.md", "runs.md", "sweeps.md", "sizing.md"]),
+    ("Reference", "reference", &["scenes.md", "keys.md", "symbols.md", "variables.md", "commands.md"]),
+    ("Explanation", "explanation", &["model.md", "theory.md", "axial.md", "contact.md"]),
+    ("Evidence", "evidence", &["validation.md"]),
+    ("Behind it", "", &[]),
 ];
 /// Pages above `docs/`, with their names in the book.
 const ABOVE: [(&str, &str); 3] =
     [("README.md", "index.md"), ("CHANGELOG.md", "changes.md"), ("ARCHITECTURE.md", "house.md")];
 const SETTINGS: &str = "[book]\ntitle = \"Brinell\"\nlanguage = \"en\"\nsrc = \"src\"\n\n\
-                        [output.html]\nmathjax-support = false\nno-section-label = true\n";
+                        [output.html]\nmathjax-support = true\nno-section-label = true\n";
 /// The command: lays out `<folder>/src` and has mdBook write `<folder>/book`.
 pub fn command(project: &Project, folder: &Path) -> Result<()> {
     let source = project.source().context("the site is made of Brinell's source, which is not there")?;
@@ -70,12 +54,16 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
     }
     whole_file::write(&folder.join("book.toml"), SETTINGS)?;
     let read = |name: &str| fs::read_to_string(source.join(name)).with_context(|| name.to_owned());
-    whole_file::write(&pages.join("scene.md"), scene_page()?)?;
+    whole_file::write(&pages.join("reference/keys.md"), scene_page()?)?;
     for (name, page) in ABOVE {
         // In the repository they lie above the pages.
         whole_file::write(&pages.join(page), read(name)?.replace("docs/", ""))?;
     }
     bring_what_is_linked(source, &pages)?;
+    for page in markdown(&pages)? {
+        let text = fs::read_to_string(&page)?;
+        fs::write(&page, with_formulas(&text))?;
+    }
     whole_file::write(&pages.join("SUMMARY.md"), contents(&pages)?)?;
     Ok(())
 }
@@ -102,6 +90,19 @@ fn bring_what_is_linked(source: &Path, pages: &Path) -> Result<()> {
         fs::write(&page, text)?;
     }
     Ok(())
+}
+
+/// Blocks ```` ```math ```` as MathJax takes them: what Markdown would read as its own is escaped.
+fn with_formulas(page: &str) -> String {
+    let mut parts = page.split("```math\n");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (formula, rest) = part.split_once("```").unwrap_or((part, ""));
+        let escaped =
+            formula.trim().chars().flat_map(|c| c.is_ascii_punctuation().then_some('\\').into_iter().chain([c]));
+        text += &format!("\\\\[ {} \\\\]{rest}", escaped.collect::<String>());
+    }
+    text
 }
 
 fn bring(from: &Path, to: &Path) -> Result<()> {
@@ -145,22 +146,21 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
     Ok(())
 }
 
-/// mdBook's list of pages: every page once, by its own heading.
+/// mdBook's list of pages: every page once, by its own heading, each folder a chapter.
 fn contents(pages: &Path) -> Result<String> {
     let mut names = names(pages)?;
     let mut text = String::from("# Contents\n\n[Brinell](index.md)\n");
     names.retain(|name| name != "index.md");
-    for (heading, first) in CHAPTERS {
+    for (heading, folder, first) in CHAPTERS {
         writeln!(text, "\n# {heading}\n")?;
-        let last = first.is_empty();
-        let mut chapter: Vec<String> = first.iter().map(|&name| name.to_owned()).collect();
-        if last {
-            chapter = names.clone();
-        }
-        for name in chapter.iter().filter(|name| names.contains(name)) {
+        let folder = if folder.is_empty() { String::new() } else { format!("{folder}/") };
+        let (mut chapter, others): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.starts_with(&folder));
+        let place = |name: &String| first.iter().position(|first| name[folder.len()..] == **first);
+        chapter.sort_by_key(|name| place(name).unwrap_or(first.len()));
+        for name in &chapter {
             writeln!(text, "- [{}]({name})", title(&fs::read_to_string(pages.join(name))?).unwrap_or(name))?;
         }
-        names.retain(|name| !chapter.contains(name));
+        names = others;
     }
     Ok(text)
 }
@@ -188,6 +188,13 @@ mod tests {
 
     fn root() -> &'static Path {
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+    }
+
+    #[test]
+    fn formulas_reach_mathjax_as_they_are_written() {
+        // CommonMark takes the backslash off an escaped sign, so that MathJax sees \\[ Q_i \\frac{1}{2} \\].
+        let page = with_formulas("a\n```math\nQ_i \\frac{1}{2}\n```\nb\n");
+        assert_eq!(page, "a\n\\\\[ Q\\_i \\\\frac\\{1\\}\\{2\\} \\\\]\nb\n");
     }
 
     #[test]

@@ -189,7 +189,7 @@ fn at_a_spalls_edge_the_pressure_gives_the_force_of_the_law_that_steps_solve() {
     }
 }
 
-/// Prints what each grid makes of a ball at an edge: the figures of `docs/contact.md`.
+/// Prints what each grid makes of a ball at an edge: the figures of `docs/how-to/pressure.md`.
 #[test]
 #[ignore = "takes minutes"]
 fn both_grids_converge_to_one_force_at_an_edge() {

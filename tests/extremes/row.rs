@@ -1,4 +1,4 @@
-//! One row of `docs/stability.md`.
+//! One row of `docs/evidence/stability.md`.
 
 use crate::support::Named;
 use brinell::simulation::StepCounts;

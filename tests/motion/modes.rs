@@ -167,7 +167,7 @@ fn rings_mode(scene: &Scene, cage_angle_deg: f64) -> f64 {
 #[test]
 fn with_the_published_masses_the_rings_ring_as_the_validation_says() {
     // The line spall of 15.8 degrees: with element 1 in its middle, and halfway between two elements. After an entry
-    // and after an exit, in the words of docs/validation.md.
+    // and after an exit, in the words of docs/evidence/validation.md.
     let line = shipped_as_it_is("er16k-tb1");
     let found = [rings_mode(&line, -90.0), rings_mode(&line, -70.0)];
     // The extended one of 55.8 degrees: with two elements in it, 20 degrees on either side of its middle, and with one.

@@ -1,6 +1,6 @@
 //! What the recorder's filter lets through, and what it keeps out.
 //!
-//! `cargo test --workspace --test motion recorder_filter -- --nocapture` prints the levels of docs/guide.md.
+//! `cargo test --workspace --test motion recorder_filter -- --nocapture` prints the levels of docs/how-to/sensors.md.
 #![allow(clippy::unwrap_used)]
 
 use crate::counting;
@@ -83,7 +83,7 @@ fn no_aliases_reach_the_band_below_the_rate_over_2_56() {
 
 /// Levels (dB) without a filter in the guide's row of a rate (Hz): sensor, housing, force on the shaft.
 fn levels_in_the_guide(rate: f64) -> Vec<f64> {
-    let (guide, number) = (include_str!("../../docs/guide.md"), format!("{}", rate as u64));
+    let (guide, number) = (include_str!("../../docs/how-to/sensors.md"), format!("{}", rate as u64));
     let name = format!("| {} {} |", &number[..number.len() - 3], &number[number.len() - 3..]);
     let row = guide.lines().find(|line| line.starts_with(&name)).unwrap();
     let cells = row.split('|').filter(|cell| cell.contains("dB"));

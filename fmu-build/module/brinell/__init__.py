@@ -11,6 +11,7 @@ goes wrong is a :class:`BrinellError` with the program's own words; what it rema
 
 from __future__ import annotations
 
+import html
 import json
 import os
 import shutil
@@ -20,13 +21,35 @@ import sysconfig
 import tempfile
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
+from importlib import metadata
 from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["BrinellError", "BrinellWarning", "Run", "build", "program", "run", "scenes", "size"]
+__all__ = [
+    "BrinellError",
+    "BrinellWarning",
+    "Run",
+    "build",
+    "catalogue",
+    "contact",
+    "modes",
+    "new",
+    "program",
+    "run",
+    "scenes",
+    "size",
+    "stiffness",
+    "sweep",
+]
+
+try:
+    __version__ = metadata.version("brinell")
+except metadata.PackageNotFoundError:
+    # Imported from its source.
+    __version__ = "0+source"
 
 PathLike = Union[str, "os.PathLike[str]"]
 Signal = npt.NDArray[np.float64]
@@ -64,6 +87,42 @@ class Run(Mapping[str, Signal]):
     def __repr__(self) -> str:
         time = self["time"]
         return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]:g} s>"
+
+    def _repr_html_(self) -> str:
+        head = "<tr><th>signal</th><th>unit</th><th>least</th><th>mean</th><th>greatest</th></tr>"
+        rows = [
+            f"<tr><td>{name}</td><td>{self.units[name]}</td>"
+            + "".join(f"<td>{value:.4g}</td>" for value in (of.min(), of.mean(), of.max()))
+            + "</tr>"
+            for name, of in self.items()
+        ]
+        return f"<p>{html.escape(repr(self))}</p><table>{head}{''.join(rows)}</table>"
+
+    def to_pandas(self) -> Any:
+        """The signals as a ``pandas.DataFrame`` over the time [s]; its ``attrs["units"]`` has their units."""
+        import pandas
+
+        frame = pandas.DataFrame({name: of for name, of in self.items() if name != "time"})
+        frame.index = pandas.Index(self["time"], name="time [s]")
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def plot(self, names: str | Iterable[str] | None = None) -> Any:
+        """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names`` what
+        the sensors show, or the housing's acceleration."""
+        from matplotlib import pyplot
+
+        chosen = [names] if isinstance(names, str) else list(names or ())
+        chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
+        units = list(dict.fromkeys(self.units[name] for name in chosen))
+        figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
+        for unit, axis in zip(units, axes[:, 0]):
+            for name in (name for name in chosen if self.units[name] == unit):
+                axis.plot(self["time"], self[name], label=name, linewidth=0.9)
+            axis.set_ylabel(unit)
+            axis.legend(loc="upper right")
+        axes[-1, 0].set_xlabel("time (s)")
+        return figure
 
 
 def program() -> str:
@@ -128,7 +187,7 @@ def run(
     options = [f"--{name}={value!r}" for name, value in given.items() if value is not None]
     options += [f"--speed-profile={os.fspath(speed_profile)}"] if speed_profile is not None else []
     names = columns if isinstance(columns, str) else ",".join(columns)
-    options += [f"--columns={names}"] if names else []
+    options += [f"--columns={names or '*'}"]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("run", os.fspath(scene), "--no-figure", "--output", folder, *options)
         (table,) = Path(folder).glob("*.csv")
@@ -177,6 +236,62 @@ def size(
         words = ["--no-figure", "--output", os.fspath(output or folder), *options]
         report: dict[str, Any] = json.loads(_ask("size", *words, "--", *(os.fspath(file) for file in files)))
     return report
+
+
+def new(name: str, output: PathLike = ".", *, bearing: str = "6205", defect: str | None = None) -> Path:
+    """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path. ``defect`` is a
+    spall as ``"inner:1.2mm"``."""
+    spall = [f"--defect={defect}"] if defect else []
+    _ask("new", name, f"--bearing={bearing}", *spall, "--output", os.fspath(output))
+    return Path(output) / f"{name}.toml"
+
+
+def catalogue(begins: str = "") -> list[dict[str, Any]]:
+    """Bearings that a scene can name, those whose names begin so; of a single one also its frequencies, as multiples of
+    the shaft's, and load ratings [N]."""
+    found: list[dict[str, Any]] = json.loads(_ask("catalogue", begins, "--json"))
+    return found
+
+
+def stiffness(scene: PathLike, *, load: float | None = None) -> dict[str, Signal]:
+    """Static stiffness [N/m], load zone and load distribution over the cage angle, by column names with units."""
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        _ask("stiffness", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
+        (table,) = Path(folder).glob("*-stiffness.csv")
+        with open(table, encoding="utf-8") as file:
+            names = file.readline().strip().split(",")
+            values = np.loadtxt(file, delimiter=",", ndmin=2)
+    return {name: np.ascontiguousarray(values[:, index]) for index, name in enumerate(names)}
+
+
+def modes(scene: PathLike, *, load: float | None = None) -> dict[str, Any]:
+    """Natural frequencies, damping ratios and mode shapes over the cage angle, as ``brinell modes`` writes them."""
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        _ask("modes", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
+        (file,) = Path(folder).glob("*-modes.json")
+        found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    return found
+
+
+def contact(scene: PathLike, *, on: str, angle: float, force: float) -> dict[str, Any]:
+    """Pressure of one ball on the raceway ``on`` as measured, ``angle`` [degrees] from the middle of its defect, under a
+    force [N], and the stresses below: what ``brinell contact`` prints."""
+    words = [f"--on={on}", f"--angle={angle!r}", f"--force={force!r}", "--no-figure"]
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        said = _ask("contact", os.fspath(scene), *words, "--output", folder)
+    found: dict[str, Any] = json.loads(said)
+    return found
+
+
+def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool = False) -> Path:
+    """Runs a sweep into the folder ``output`` and gives the path of its table, a Parquet file."""
+    words = ["--signals"] if signals else []
+    said = _ask("sweep", os.fspath(file), "--output", os.fspath(output), *_optional("jobs", jobs), *words)
+    return Path(said.splitlines()[0])
+
+
+def _optional(name: str, value: float | None) -> list[str]:
+    return [] if value is None else [f"--{name}={value!r}"]
 
 
 def scenes() -> list[str]:

@@ -5,13 +5,13 @@ mod options;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::{Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
-use crate::shared::Project;
-use crate::{run, sweep};
-use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Run, Scenes, Size, Sweep};
+use crate::shared::{Project, talk};
+use crate::{paper, run, sweep};
+use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Paper, Run, Scenes, Size, Sweep};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]
@@ -19,6 +19,26 @@ use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Run, S
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+/// How much is said on standard error.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Talk {
+    /// Say nothing but errors and results: no remarks, no bars
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say what is done: files that are taken from elsewhere, steps and times
+    #[arg(short, long, global = true)]
+    verbose: bool,
+}
+
+impl Talk {
+    /// From now on.
+    pub fn apply(self) {
+        talk::set(self.quiet, self.verbose);
+    }
 }
 
 /// What a user can ask for.
@@ -42,6 +62,8 @@ pub enum Command {
     Size(Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
+    /// A figure or table of the paper behind the model, computed anew: each claim with its outcome
+    Paper(Paper),
     /// Lists the shipped scenes, or writes the files of those that are named
     Scenes(Scenes),
     /// Writes a commented scene of a bearing of the catalogue that runs as it is
@@ -50,11 +72,18 @@ pub enum Command {
     Catalogue(Catalogue),
     /// Prints the JSON schema of scene files, by which editors complete and explain their keys
     Schema,
+    /// Prints what a shell needs to complete commands and options
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
 }
 
 impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
+        self.talk.apply();
         self.command.execute(&Project::of_user())
     }
 }
@@ -104,12 +133,22 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
             }
-            Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
+            Command::Paper(options) => {
+                let folder = options.drawn.folder(project, "paper");
+                paper::command(project, options.part, options.json, !options.drawn.no_figure, &folder)
+            }
+            Command::Scenes(options) => {
+                scenes::command(&options.names, options.json, &options.output.unwrap_or_default())
+            }
             Command::New(options) => {
                 let folder = options.output.unwrap_or_default();
                 new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
             }
-            Command::Catalogue(options) => catalogue::command(&options.filter),
+            Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
+            Command::Completions { shell } => {
+                clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut std::io::stdout());
+                Ok(())
+            }
             Command::Schema => {
                 print!("{}", schema::text()?);
                 Ok(())

@@ -15,7 +15,7 @@ use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
 use crate::shared::{Grid, Project, Version, delimiter, number, seed, speed, whole};
-use crate::{run, sweep};
+use crate::{paper, run, sweep};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -56,7 +56,8 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
     pub(super) step: Option<f64>,
-    /// Columns beside the time, separated by commas; * stands for any characters [default: all]
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all; from 20 000 points on
+    /// without those of single elements]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(super) columns: Vec<String>,
     /// What the table is written as
@@ -97,6 +98,9 @@ pub struct Run {
     /// Write an HTML page for a browser: signals, path over the defect, spectra
     #[arg(long)]
     pub(super) html: bool,
+    /// Open the page in the browser
+    #[arg(long, requires = "html")]
+    pub(super) open: bool,
     /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
@@ -132,6 +136,7 @@ impl Run {
             wav,
             figure: !self.no_figure,
             page: self.html,
+            open: self.open,
         })
     }
 }
@@ -336,12 +341,28 @@ pub struct Demo {
     pub(super) library: LibraryChoice,
 }
 
+/// Options of `paper`.
+#[derive(Debug, Args)]
+pub struct Paper {
+    /// Which of its parts
+    #[arg(value_enum)]
+    pub(super) part: paper::Part,
+    /// Print the claims as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
+}
+
 /// Options of `scenes`.
 #[derive(Debug, Args)]
 pub struct Scenes {
     /// Names of shipped scenes whose files are written
     #[arg(value_name = "NAME")]
     pub(super) names: Vec<String>,
+    /// Print the list as JSON
+    #[arg(long, conflicts_with = "names")]
+    pub(super) json: bool,
     /// Folder for the files [default: the current one]
     #[arg(short, long, value_name = "DIR", requires = "names")]
     pub(super) output: Option<PathBuf>,
@@ -370,6 +391,9 @@ pub struct Catalogue {
     /// How the names begin, as 62
     #[arg(value_name = "FILTER", default_value = "", hide_default_value = true)]
     pub(super) filter: String,
+    /// Print them as JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]

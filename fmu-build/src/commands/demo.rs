@@ -13,6 +13,9 @@ use crate::shared::{Project, Python, csv, whole_file};
 
 /// A shipped scene.
 const SCENE: &str = "6205-epps";
+/// What a reader of the figure must know.
+const STAND_IN: &str = "the trace of the spall is a stand-in, 0.8 mm long as reported and rough as assumed: the measured \
+                        one was never published";
 /// Spacing of the profile that is drawn, and how far it goes beyond the defect (m).
 const SPACING: f64 = 1e-6;
 const MARGIN: f64 = 0.5e-3;
@@ -25,6 +28,7 @@ pub fn command(project: &Project, library: &Choice, folder: &Path) -> Result<()>
     for line in library.describe() {
         println!("{line}");
     }
+    println!("{STAND_IN}");
     let path = fmu::write(&model, &library, Version::Fmi2, folder)?;
     println!("{}", path.display());
     let raceway = folder.join("raceway.csv");

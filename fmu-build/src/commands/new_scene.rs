@@ -10,7 +10,7 @@ use minijinja::context;
 
 use super::schema;
 use crate::package::render;
-use crate::shared::whole_file;
+use crate::shared::{note, whole_file};
 
 /// Share of the static load rating that a new scene's bearing carries.
 const LOAD_SHARE: f64 = 0.05;
@@ -57,7 +57,7 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
     match load {
         Some(load) if !(load.is_finite() && load > 0.0) => bail!("--load {load} N: it must be finite and above 0"),
         Some(load) => scene.shaft.load = [0.0, -load],
-        None => eprintln!(
+        None => note!(
             "note: {bearing}: a load of {:.0} N is assumed, 5 % of the static rating; --load gives the real one",
             scene.shaft.load[1].abs()
         ),

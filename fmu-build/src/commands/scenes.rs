@@ -3,19 +3,24 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use serde_json::json;
 
 use super::schema;
 use crate::shared::shipped;
 use crate::shared::whole_file;
 
 /// The command: one line for each shipped scene; of those named, the files are written into `folder` instead.
-pub fn command(names: &[String], folder: &Path) -> Result<()> {
+pub fn command(names: &[String], json: bool, folder: &Path) -> Result<()> {
+    if json {
+        let rows: Result<Vec<_>> =
+            shipped::scenes().map(|name| Ok(json!({ "name": name, "description": description(name)? }))).collect();
+        println!("{}", serde_json::to_string_pretty(&rows?)?);
+        return Ok(());
+    }
     if names.is_empty() {
         let width = shipped::scenes().map(str::len).max().unwrap_or(0);
         for name in shipped::scenes() {
-            let scene = brinell_scene_file::from_toml(&shipped::scene_text(Path::new(name))?)
-                .with_context(|| name.to_owned())?;
-            println!("{name:width$}  {}", scene.description);
+            println!("{name:width$}  {}", description(name)?);
         }
     }
     for name in names {
@@ -32,4 +37,9 @@ pub fn command(names: &[String], folder: &Path) -> Result<()> {
         }
     }
     if names.is_empty() { Ok(()) } else { schema::write_beside(folder) }
+}
+
+fn description(name: &str) -> Result<String> {
+    let text = shipped::scene_text(Path::new(name))?;
+    Ok(brinell_scene_file::from_toml(&text).with_context(|| name.to_owned())?.description)
 }

@@ -14,7 +14,7 @@ use brinell_analysis::spectra::Fault;
 
 use super::{new_scene, size_report};
 use crate::package::read_scene;
-use crate::shared::{Project, Python, contact_map, csv, digits, whole_file};
+use crate::shared::{Project, Python, contact_map, csv, digits, note, talk, whole_file};
 
 /// Where the bearing and its load come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,15 +64,20 @@ pub fn command(
     for r in &recordings {
         // Times that are read as numbers leave some 1e-13 of the rate over.
         let rate = digits(1e-3 * r.rate());
-        eprintln!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
+        note!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
     }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
+    let bar = talk::bar(recordings.len() as u64, "sizing [{bar:30}] {pos}/{len} recordings, {elapsed}");
+    bar.enable_steady_tick(std::time::Duration::from_millis(500));
     let report = size_with(&recordings, &scene, &maps, &mut |done| {
+        bar.inc(1);
         // Of one recording the answer says it all.
         if recordings.len() > 1 {
-            eprintln!("{}: {}", done.name, of_recording(done));
+            bar.suspend(|| note!("{}: {}", done.name, of_recording(done)));
         }
-    })?;
+    });
+    bar.finish_and_clear();
+    let report = report?;
     eprintln!("{}", answer(&report));
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;

@@ -19,7 +19,7 @@ use variables::variables;
 
 const PAGE: &str = include_str!("../../assets/documentation.html");
 /// The coupling errors that the guide has measured, by co-simulation algorithm.
-const GUIDE: &str = include_str!("../../../docs/guide.md");
+const GUIDE: &str = include_str!("../../../docs/how-to/hosting.md");
 /// How their table begins.
 const ALGORITHMS: &str = "| bearing | algorithm | the rotor gets |";
 

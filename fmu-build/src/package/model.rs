@@ -12,7 +12,7 @@ use brinell_scene_file::DepthRemark;
 
 use super::sensor_response;
 use crate::package::reference::Reference;
-use crate::shared::{Project, contact_map, shipped};
+use crate::shared::{Project, contact_map, note, shipped};
 
 /// A scene that was read, with its files' texts and a simulation of it.
 #[derive(Debug, Clone)]
@@ -68,7 +68,7 @@ pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
         Err(_) => return,
     };
     if let Some(remark) = DepthRemark::of(&scene.bearing, 1e6 * deepest) {
-        eprintln!("note: {name}: {remark}");
+        note!("note: {name}: {remark}");
     }
 }
 
@@ -87,7 +87,7 @@ pub struct SceneFiles {
 pub fn read_all(path: &Path) -> Result<SceneFiles> {
     let (text, scene) = read_scene(path)?;
     for remark in remarks(&text, &scene) {
-        eprintln!("note: {}: {remark}", path.display());
+        note!("note: {}: {remark}", path.display());
     }
     let profile = |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
     let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<Vec<_>>>()?;

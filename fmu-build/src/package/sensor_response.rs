@@ -7,6 +7,8 @@ use brinell::scene::SensorMode;
 use brinell_analysis::spectra::{Fit, FrequencyResponse};
 use brinell_scene_file::SceneFileError;
 
+use crate::shared::note;
+
 /// A scene's text with modes in place of every response; `read` gives the text of the file that a response names.
 pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Result<String> {
     let mut resolved = String::with_capacity(text.len());
@@ -29,7 +31,7 @@ pub(crate) fn resolved(text: &str, read: impl Fn(&str) -> Result<String>) -> Res
             bail!("{}: it must be the name of a file beside the scene", place());
         }
         let fit = read(&file).and_then(|text| Ok(FrequencyResponse::from_csv(&text)?.fit()?)).with_context(place)?;
-        eprintln!("{}: {} modes, which miss {:.2} % of it", place(), fit.modes.len(), 100.0 * fit.misfit);
+        note!("{}: {} modes, which miss {:.2} % of it", place(), fit.modes.len(), 100.0 * fit.misfit);
         resolved.push_str(&modes(&file, &fit));
         resolved.push('\n');
         has_one = true;

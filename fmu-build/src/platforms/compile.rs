@@ -14,7 +14,7 @@ use brinell::numerics::checksum::Checksum;
 use super::platform::{Platform, Target};
 use super::toolchain::Toolchain;
 use super::{toolchain, universal};
-use crate::shared::{Project, whole_file};
+use crate::shared::{Project, note, whole_file};
 
 /// What the library is compiled of, in the workspace.
 const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", "src", "crates/fmi", ".cargo"];
@@ -78,7 +78,7 @@ fn add_files(path: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
 
 fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchain) -> Result<PathBuf> {
     let cargo = toolchain::cargo();
-    eprintln!("compiling the model library for {} (once)", target.compiled_as());
+    note!("compiling the model library for {} (once)", target.compiled_as());
     let output = Command::new(&cargo)
         .current_dir(source)
         .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library"])

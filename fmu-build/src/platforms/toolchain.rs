@@ -12,7 +12,7 @@ use anyhow::{Context, Result, bail};
 
 use super::platform::{Linking, Platform, Target};
 use super::zig::Zig;
-use crate::shared::Project;
+use crate::shared::{Project, note};
 
 /// The oldest macOS that files are made for: the first that runs on both kinds of Mac.
 pub const OLDEST_MACOS: &str = "11.0";
@@ -80,7 +80,7 @@ impl Toolchain {
                 Ok(())
             }
             Err(why) if target.is_host() => {
-                eprintln!("note: linked by this machine's own linker, for its own C library: {why:#}");
+                note!("note: linked by this machine's own linker, for its own C library: {why:#}");
                 self.tools += "this machine's linker\n";
                 Ok(())
             }

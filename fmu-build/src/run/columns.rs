@@ -27,6 +27,11 @@ impl Columns {
         Self::those(table, &|_| true)
     }
 
+    /// The same without what each element has of its own.
+    pub fn without_elements(table: &[Variable]) -> Self {
+        Self::those(table, &|name| !name.starts_with("element["))
+    }
+
     /// Those that `patterns` name, in the order of the table; `*` in a pattern stands for any characters.
     ///
     /// # Errors

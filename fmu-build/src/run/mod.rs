@@ -13,13 +13,16 @@ pub mod wav;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
+use crate::interrupt::Interrupted;
 use crate::package::{Model, Profile};
-use crate::shared::{Grid, Project, Python, digits, whole_file};
+use crate::shared::{Grid, Project, Python, detail, digits, note, whole_file};
 use columns::Columns;
 use noise::Noise;
 use run_loop::{Done, RunLoop};
@@ -31,6 +34,9 @@ use wav::{Loudness, Wav};
 
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
+
+/// Steps from which on a table has no columns of single elements unless they are named.
+const LONG: u64 = 20_000;
 
 /// What the user says.
 #[derive(Debug, Clone)]
@@ -51,6 +57,8 @@ pub struct Options {
     pub figure: bool,
     /// Whether to write an HTML page.
     pub page: bool,
+    /// Whether to open it in the browser.
+    pub open: bool,
 }
 
 /// The command: `<folder>/<scene>.csv` or what else the table is to be, `.npy` where the scene has a recorder, and, if
@@ -62,9 +70,10 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     let growing = whole_file::folder_in(folder)?;
     let path = options.format.path(folder, &model.scene.name);
     spare_profiles(&model, &path)?;
-    let chosen = chosen(&model.simulation, &options.columns)?;
+    let chosen = chosen(&model.simulation, options)?;
     let columns = if options.figure || options.page { Columns::all(model.simulation.table()) } else { chosen.clone() };
-    let run_loop = RunLoop { grid: options.grid, profile: options.profile.as_ref() };
+    let run_loop = RunLoop { grid: options.grid, profile: options.profile.as_ref(), shows: true };
+    let begin = Instant::now();
     let done = run_loop.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
     let sensors = |signals: &Signals| signals.indices(|name| shows_a_sensor(&model.scene, name));
     if let Some(noise) = &options.noise {
@@ -78,16 +87,25 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
         .filter_map(|name| done.units.iter().position(|(known, _)| known == name))
         .map(|index| Column { index, unit: done.units[index].1 })
         .collect();
+    detail!("{}: {} in {:.2} s", model.scene.name, counts(&mut model.simulation)?, begin.elapsed().as_secs_f64());
     options.format.write(&done.signals, &columns, &path)?;
     println!("{}", path.display());
+    if let Some(at) = done.interrupted_at {
+        note!(
+            "interrupted: {} holds what was simulated, up to {} s; nothing else was written",
+            path.display(),
+            digits(at)
+        );
+        return Err(Interrupted.into());
+    }
     if let (Some(wav), Some(recording), Some(recorder)) = (&options.wav, &done.recording, model.scene.recorder) {
         let path = folder.join(format!("{}.wav", model.scene.name));
         let Loudness { largest, clipped } = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
         println!("{}", path.display());
-        eprintln!("note: {} Hz, 1 is {} m/s2, the largest sample {largest:.3}", recorder.rate, wav.scale);
+        note!("note: {} Hz, 1 is {} m/s2, the largest sample {largest:.3}", recorder.rate, wav.scale);
         if clipped > 0.0 {
             let (share, enough) = (digits(100.0 * clipped), digits(wav.scale * largest));
-            eprintln!(
+            note!(
                 "warning: {}: {share} % of the samples are beyond 1, where players clip: --wav-scale above {enough} \
                  keeps them below",
                 path.display()
@@ -118,11 +136,20 @@ fn spare_profiles(model: &Model, table: &Path) -> Result<()> {
     }
 }
 
-fn chosen(simulation: &Simulation, patterns: &[String]) -> Result<Columns> {
-    if patterns.is_empty() {
-        return Ok(Columns::all(simulation.table()));
+/// The table's columns. A long run's leave out what each element has, unless they are asked for: hundreds of megabytes.
+fn chosen(simulation: &Simulation, options: &Options) -> Result<Columns> {
+    let table = simulation.table();
+    if !options.columns.is_empty() {
+        return Columns::matching(table, &options.columns);
     }
-    Columns::matching(simulation.table(), patterns)
+    if options.grid.count < LONG {
+        return Ok(Columns::all(table));
+    }
+    note!(
+        "note: {} points: the table has no columns of single elements; --columns '*' gives all",
+        options.grid.count + 1
+    );
+    Ok(Columns::without_elements(table))
 }
 
 /// Whether a signal is what an accelerometer shows.
@@ -146,7 +173,10 @@ fn with_recorder(model: Model, options: &Options) -> Result<Model> {
     }
     let rate = match (named, model.scene.recorder) {
         (Some(rate), _) => rate,
-        (None, None) if options.wav.is_some() || options.page => USUAL_RATE,
+        // Of a run-up each resonance is passed: samples at communication points would beat with it in the figure.
+        (None, None) if options.wav.is_some() || options.page || (options.figure && options.profile.is_some()) => {
+            USUAL_RATE
+        }
         _ => return Ok(model),
     };
     let mut scene = model.scene;
@@ -179,12 +209,13 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
     let envelope = spectra.write_envelope(folder)?;
     let too_short = spectra.too_short();
     if let Some(why) = &too_short {
-        eprintln!("note: {why}");
+        note!("note: {why}");
     }
     let python = if options.page { Python::prepare_for_pages(project)? } else { Python::prepare(project)? };
     let stem = folder.join(&scene.name);
     if options.figure {
-        let mut files: Vec<PathBuf> = vec![done.signals.path().to_owned(), stem.clone()];
+        let recorded = done.recording.as_ref().filter(filtered).map_or(Path::new("-"), Signals::path);
+        let mut files: Vec<PathBuf> = vec![done.signals.path().to_owned(), recorded.to_owned(), stem.clone()];
         files.extend(envelope.clone());
         print!("{}", python.run("run_figure.py", &files)?);
     }
@@ -195,14 +226,41 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
             recording: done.recording.as_ref(),
             envelope: envelope.as_deref(),
             orders: orders.as_ref(),
+            changes: options.profile.is_some(),
         };
         let notes: Vec<String> = notes(options).into_iter().chain(too_short).collect();
         let described = page::described(model, &files, &notes)?;
         let about = done.signals.path().with_extension("json");
         whole_file::write(&about, described.to_string())?;
-        print!("{}", python.run("run_page.py", [about, folder.join(format!("{}.html", scene.name))])?);
+        let page = folder.join(format!("{}.html", scene.name));
+        print!("{}", python.run("run_page.py", [about, page.clone()])?);
+        if options.open {
+            open(&page);
+        }
     }
     Ok(())
+}
+
+/// How many steps a simulation has taken.
+fn counts(simulation: &mut Simulation) -> Result<String> {
+    let references = [simulation.reference("solver.steps")?, simulation.reference("solver.rejected_steps")?];
+    let mut counts = [0; 2];
+    simulation.integers(&references, &mut counts)?;
+    Ok(format!("{} integration steps and {} rejected", counts[0], counts[1]))
+}
+
+/// Hands a page to the system's browser; where there is none the page's name has been told.
+fn open(page: &Path) {
+    let (program, first) = match std::env::consts::OS {
+        "windows" => ("cmd", Some(["/C", "start", ""])),
+        "macos" => ("open", None),
+        _ => ("xdg-open", None),
+    };
+    let mut command = Command::new(program);
+    command.args(first.into_iter().flatten()).arg(page).stdout(Stdio::null()).stderr(Stdio::null());
+    if let Err(error) = command.spawn() {
+        note!("note: {} was not opened: {program}: {error}", page.display());
+    }
 }
 
 /// What a reader of the page must know of the run.

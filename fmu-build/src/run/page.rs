@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use anyhow::Result;
+use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::DefectOn;
 use brinell::surface::Surface;
 use serde_json::{Value, json};
@@ -22,6 +23,8 @@ pub(super) struct Files<'a> {
     pub(super) recording: Option<&'a Signals>,
     /// Spectrum of the envelope, a CSV with a JSON beside it.
     pub(super) envelope: Option<&'a Path>,
+    /// Whether the shaft's speed changes.
+    pub(super) changes: bool,
     /// Orders, with what there is to mark.
     pub(super) orders: Option<&'a (std::path::PathBuf, Value)>,
 }
@@ -58,6 +61,12 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
         "description": scene.description,
         "count": bearing.element_count,
         "clearance": bearing.radial_clearance,
+        "element_radius": bearing.element_radius(),
+        "outer_radius": bearing.outer_raceway_radius(),
+        "inner_radius": bearing.inner_raceway_radius(),
+        "passage": 1.0 / Frequencies::of(scene).bpfo.abs().max(1.0),
+        "sensor": if scene.sensors.is_empty() { "housing.ay".to_owned() } else { scene.sensor_variable(0) },
+        "changes": files.changes,
         "turns": scene.housing_speed.is_some(),
         "signals": files.signals.path(),
         "recording": files.recording.map(Signals::path),

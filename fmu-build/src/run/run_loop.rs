@@ -10,8 +10,11 @@ use brinell::simulation::Simulation;
 use super::columns::Columns;
 use super::signals::{Growing, Signals};
 use super::speed_profile::SpeedProfile;
-use crate::interrupt::{self, Interrupted};
-use crate::shared::{Grid, NotWritten};
+use crate::interrupt::{self, Held};
+use crate::shared::{Grid, NotWritten, talk};
+
+/// Communication steps between two looks of a bar.
+const EVERY: u64 = 64;
 
 /// When a run communicates, and how fast its shaft turns.
 #[derive(Debug, Clone, Copy)]
@@ -20,6 +23,8 @@ pub(crate) struct RunLoop<'a> {
     pub(crate) grid: Grid,
     /// The shaft's speed over time, where it changes.
     pub(crate) profile: Option<&'a SpeedProfile>,
+    /// Whether a bar shows how far it is.
+    pub(crate) shows: bool,
 }
 
 /// What a run leaves in its own folder.
@@ -30,6 +35,8 @@ pub(crate) struct Done {
     pub(crate) units: Vec<(String, &'static str)>,
     /// What the scene's recorder has sampled.
     pub(crate) recording: Option<Signals>,
+    /// When a user ended it before its time (s).
+    pub(crate) interrupted_at: Option<f64>,
 }
 
 impl RunLoop<'_> {
@@ -58,10 +65,15 @@ impl RunLoop<'_> {
         let file = growing.join("signals.table");
         let mut rows = Growing::create(&file, names, self.grid.count + 1).map_err(full)?;
         let mut row = vec![0.0; units.len()];
+        let steps = if self.shows { self.grid.count } else { 0 };
+        let bar = talk::bar(steps, "{msg} [{bar:30}] {percent} %, {eta} left").with_message(scene.name.clone());
+        let held = Held::new();
+        let mut interrupted_at = None;
         for index in 0..=self.grid.count {
             if index > 0 {
                 if interrupt::came() {
-                    return Err(Interrupted.into());
+                    interrupted_at = Some(simulation.time());
+                    break;
                 }
                 self.step(simulation, shaft_speed, index)?;
                 if let Some(recording) = &mut recording {
@@ -71,7 +83,12 @@ impl RunLoop<'_> {
             row[0] = simulation.time();
             columns.read(simulation, &mut row[1..])?;
             rows.push(&row).map_err(full)?;
+            if self.shows && index % EVERY == 0 {
+                bar.set_position(index);
+            }
         }
+        bar.finish_and_clear();
+        drop(held);
         let signals = rows.end().map_err(full)?;
         let recording = match recording {
             None => None,
@@ -83,7 +100,7 @@ impl RunLoop<'_> {
                 Some(Signals::of_recording(recording.path(), names)?)
             }
         };
-        Ok(Done { signals, units, recording })
+        Ok(Done { signals, units, recording, interrupted_at })
     }
 
     /// Communication step `number`, with the speed going straight from the profile's value at its start to that at its

@@ -26,6 +26,7 @@ pub struct Signals {
 pub struct Growing {
     out: BufWriter<File>,
     signals: Signals,
+    pushed: u64,
 }
 
 impl Growing {
@@ -35,16 +36,23 @@ impl Growing {
         let mut out = BufWriter::new(File::create(path)?);
         out.write_all(&header)?;
         let signals = Signals { path: path.to_owned(), names, header: header.len() as u64, rows };
-        Ok(Self { out, signals })
+        Ok(Self { out, signals, pushed: 0 })
     }
 
     /// Adds a row.
     pub fn push(&mut self, row: &[f64]) -> io::Result<()> {
+        self.pushed += 1;
         row.iter().try_for_each(|value| self.out.write_all(&value.to_le_bytes()))
     }
 
-    /// The file, whole.
+    /// The file, whole; of a run that ended early with the rows that it has.
     pub fn end(mut self) -> io::Result<Signals> {
+        if self.pushed < self.signals.rows {
+            // A header's length does not depend on the rows.
+            self.out.seek(SeekFrom::Start(0))?;
+            self.out.write_all(&Layout::flat(&self.signals.names).header(self.pushed))?;
+            self.signals.rows = self.pushed;
+        }
         self.out.flush()?;
         Ok(self.signals)
     }

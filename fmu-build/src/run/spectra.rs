@@ -11,7 +11,7 @@ use brinell_analysis::spectra::{EnvelopeSpectrum, EvenAngles, OrderSpectrum, env
 use serde_json::{Value, json};
 
 use super::speed_profile::SpeedProfile;
-use crate::shared::{csv, whole_file};
+use crate::shared::{csv, note, whole_file};
 
 /// Highest order that is kept: some harmonics of BPFI in bearings of any size.
 const HIGHEST_ORDER: f64 = 200.0;
@@ -121,7 +121,7 @@ impl<'a> Spectra<'a> {
             let speed = if self.changes() { self.angles()?.mean_speed() } else { profile.hertz(0.0) };
             scene.shaft_speed = TAU * speed;
             if self.changes() && scene.housing_speed.is_some_and(|speed| speed != 0.0) {
-                eprintln!("note: no spectra: the rings' speeds have no constant ratio");
+                note!("note: no spectra: the rings' speeds have no constant ratio");
                 return None;
             }
         }

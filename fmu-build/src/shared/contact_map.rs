@@ -12,11 +12,12 @@ use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup::{self, NeededMap};
 use brinell::surface::Surface;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::project::Project;
+use super::talk::{self, detail, note};
 use super::whole_file;
 
 /// The bytes of a scene's contact map, `None` where its law or its healthy raceway needs none.
@@ -44,6 +45,7 @@ pub(crate) fn kept(fingerprint: u64, project: &Project) -> Option<ContactMap> {
 pub(crate) fn one(scene: &Scene, needed: &NeededMap, project: &Project, threads: usize) -> Result<ContactMap> {
     let file = cache_file(project, needed.fingerprint);
     if let Some(map) = kept(needed.fingerprint, project) {
+        detail!("contact map of {}: {}", scene.name, file.display());
         return Ok(map);
     }
     let mut cores = Cores { pool: ThreadPoolBuilder::new().num_threads(threads).build()?, bar: bar(&scene.name) };
@@ -51,7 +53,7 @@ pub(crate) fn one(scene: &Scene, needed: &NeededMap, project: &Project, threads:
     cores.bar.finish_and_clear();
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
     if reached > 1.5 * wanted {
-        eprintln!(
+        note!(
             "contact map of {}: error up to {reached:.1e} of the largest force, {wanted:.0e} was wanted; more cells \
              (contact.cells) may help, and a scene that gives contact.map_accuracy refuses such a map",
             scene.name
@@ -66,9 +68,7 @@ fn cache_file(project: &Project, fingerprint: u64) -> PathBuf {
 }
 
 fn bar(name: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("contact map of {msg} [{bar:30}] {pos}/{len} columns, {elapsed}");
-    let bar = ProgressBar::new(0).with_message(name.to_owned());
-    if let Ok(style) = style { bar.with_style(style) } else { bar }
+    talk::bar(0, "contact map of {msg} [{bar:30}] {pos}/{len} columns, {elapsed}").with_message(name.to_owned())
 }
 
 /// Runs jobs on several threads; results keep their order, so the map has the same bits however many there are.

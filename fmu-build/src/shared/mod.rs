@@ -10,6 +10,7 @@ pub mod numbers;
 pub mod project;
 pub mod python;
 pub mod shipped;
+pub(crate) mod talk;
 pub mod whole_file;
 
 pub use ending::program;
@@ -21,3 +22,4 @@ pub use whole_file::NotWritten;
 
 pub(crate) use digits::digits;
 pub(crate) use numbers::{delimiter, number, seed, speed, whole};
+pub(crate) use talk::{detail, note};

@@ -15,6 +15,7 @@ use std::process::{Child, Command, Output, Stdio};
 use anyhow::{Context, Result, bail};
 
 use super::project::Project;
+use super::talk::note;
 use super::whole_file;
 
 const REQUIREMENTS: &str = include_str!("../../python/requirements.txt");
@@ -23,10 +24,14 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("contact.py", include_str!("../../python/contact.py")),
     ("demo.py", include_str!("../../python/demo.py")),
     ("host.py", include_str!("../../python/host.py")),
+    ("paper.py", include_str!("../../python/paper.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),
     ("run_figure.py", include_str!("../../python/run_figure.py")),
+    ("run_motion.js", include_str!("../../python/run_motion.js")),
+    ("run_motion.py", include_str!("../../python/run_motion.py")),
     ("run_page.js", include_str!("../../python/run_page.js")),
     ("run_page.py", include_str!("../../python/run_page.py")),
+    ("run_spectra.py", include_str!("../../python/run_spectra.py")),
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),
     ("stiffness.py", include_str!("../../python/stiffness.py")),
@@ -83,7 +88,7 @@ impl Python {
         let whole = fs::read_to_string(&stamp).is_ok_and(|made_from| made_from == requirements);
         if !(whole && python.interpreter.is_file()) {
             let system = find_interpreter()?;
-            eprintln!("making the Python environment {} (once)", environment.display());
+            note!("making the Python environment {} (once)", environment.display());
             remove(&stamp, |path| fs::remove_file(path))?;
             remove(&environment, |path| fs::remove_dir_all(path))?;
             remove(&python.bytecode(), |path| fs::remove_dir_all(path))?;
@@ -115,7 +120,7 @@ impl Python {
     pub fn draw<A: AsRef<OsStr>>(project: &Project, script: &str, arguments: impl IntoIterator<Item = A>) {
         match Self::prepare(project).and_then(|python| python.run(script, arguments)) {
             Ok(drawn) => eprint!("{drawn}"),
-            Err(why) => eprintln!("no figure: {why:#}"),
+            Err(why) => note!("no figure: {why:#}"),
         }
     }
 

@@ -53,6 +53,14 @@ pub fn scene_text(path: &Path) -> Result<String> {
         if path.extension().is_none() {
             bail!("{name}: neither a file nor a shipped scene; {}", meant(name));
         }
+        if let Some(scene) = name.strip_suffix(".toml") {
+            let shipped = text(name).map(|_| format!("{scene} is a shipped scene: name it without .toml, or write its file here by `brinell scenes {scene}`"));
+            let near = || nearest(scenes(), scene).map(|near| format!("did you mean the shipped scene {near}?"));
+            bail!(
+                "{name}: no such file; {}",
+                shipped.or_else(near).unwrap_or_else(|| "`brinell scenes` lists those that are shipped".to_owned())
+            );
+        }
     }
     fs::read_to_string(path).with_context(|| path.display().to_string())
 }
@@ -110,7 +118,11 @@ mod tests {
         assert!(message.contains("6205-epps, ") && message.contains("6205-healthy"), "{message}");
         // What looks like a file is spoken of as one.
         let message = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
-        assert_eq!(message, "6205-epp.toml");
+        assert_eq!(message, "6205-epp.toml: no such file; did you mean the shipped scene 6205-epps?");
+        let message = scene_text(Path::new("6205-epps.toml")).unwrap_err().to_string();
+        assert!(message.contains("6205-epps is a shipped scene: name it without .toml"), "{message}");
+        let message = scene_text(Path::new("no/6205-epps.toml")).unwrap_err().to_string();
+        assert_eq!(message, "no/6205-epps.toml");
         assert!(text_beside(Path::new("no/6205-epps"), "6205-epps-trace.csv").is_err(), "another folder's scene");
     }
 }

@@ -22,11 +22,11 @@ use std::sync::Mutex;
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 use crate::interrupt::{Held, Interrupted, Temporary};
 use crate::run::speed_profile::SpeedProfile;
-use crate::shared::{Grid, NotWritten, Project, whole_file};
+use crate::shared::{Grid, NotWritten, Project, note, talk, whole_file};
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
@@ -336,10 +336,9 @@ fn lock(folder: &Path) -> Result<File> {
 }
 
 fn bar(runs: u64, done: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left");
-    let bar = ProgressBar::new(runs).with_position(done);
+    let bar = talk::bar(runs, "sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left").with_position(done);
     bar.reset_eta();
-    if let Ok(style) = style { bar.with_style(style) } else { bar }
+    bar
 }
 
 fn error_of(row: &Row) -> Option<&str> {
@@ -357,17 +356,17 @@ fn tell(rows: &[Row], counts: &Counts, wanted: usize) -> Result<()> {
     let mut errors = rows.iter().filter_map(|row| Some((row.run()?, error_of(row)?)));
     let first = errors.next();
     let failed = usize::from(first.is_some()) + errors.count();
-    eprintln!("note: {} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
+    note!("note: {} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
     if counts.again > 0 {
-        eprintln!("note: the signals of {} runs were gone and were made again", counts.again);
+        note!("note: the signals of {} runs were gone and were made again", counts.again);
     }
     if let Some((run, error)) = first {
-        eprintln!("note: run {run}: {error}");
+        note!("note: run {run}: {error}");
     }
     match wanted - counts.made - counts.again {
         0 => Ok(()),
         left => {
-            eprintln!("note: interrupted: what is in the table is kept; the same command makes the other {left} runs");
+            note!("note: interrupted: what is in the table is kept; the same command makes the other {left} runs");
             Err(Interrupted.into())
         }
     }

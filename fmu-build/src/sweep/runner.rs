@@ -159,8 +159,11 @@ impl SweepRunner<'_> {
         let own = self.running.join(&name);
         std::fs::create_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?;
         let columns = self.wanted(&scene, &simulation)?;
-        let run_loop = RunLoop { grid: self.grid, profile };
+        let run_loop = RunLoop { grid: self.grid, profile, shows: false };
         let done = run_loop.simulate(&scene, &mut simulation, columns, &own, &own)?;
+        if done.interrupted_at.is_some() {
+            return Err(Interrupted.into());
+        }
         let kept = self.kept(&scene, &done, &own.join(format!("{name}.kept")))?;
         if let Some(noise) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();

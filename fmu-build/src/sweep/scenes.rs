@@ -10,6 +10,7 @@ use toml::{Table, Value};
 use super::design::Run;
 use super::file::{Kind, Sweep, number};
 use crate::package::model;
+use crate::shared::note;
 
 /// Keys that are two ways to say one thing: who gives the first takes the others away.
 const INSTEAD: [(&str, &[&str]); 5] = [
@@ -40,7 +41,7 @@ impl Base {
         let path = if near.exists() { near } else { PathBuf::from(name) };
         let (text, scene) = model::read_scene(&path)?;
         for remark in model::remarks(&text, &scene) {
-            eprintln!("note: {}: {remark}", path.display());
+            note!("note: {}: {remark}", path.display());
         }
         Ok(Self { table: text.parse().with_context(|| path.display().to_string())?, path, scene })
     }

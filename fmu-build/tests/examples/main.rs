@@ -1,4 +1,4 @@
-//! The examples and the guide: every command of `docs/guide.md` runs, on a short case, and its result is looked at.
+//! The examples and the pages that name them: every command of theirs runs, on a short case, and its result is looked at.
 //! Those that need more than fmpy and matplotlib have a Python environment of their own, made from
 //! `examples/requirements.txt`; it has half a gigabyte, and so they run in the nightly part.
 #![allow(clippy::unwrap_used)]
@@ -109,9 +109,10 @@ fn page(name: &str) -> String {
     fs::read_to_string(common::root().join("docs").join(name)).unwrap()
 }
 
-/// Blocks of the guide and its page of systems in this language.
+/// Blocks of the pages about examples in this language.
 fn blocks(language: &str) -> Vec<String> {
-    let guide = page("guide.md") + &page("systems.md");
+    let guide: String =
+        ["hosting", "step", "sensors", "systems"].map(|name| page(&format!("how-to/{name}.md"))).concat();
     let fence = format!("```{language}\n");
     let parts = guide.split(&fence).skip(1);
     parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()
@@ -208,7 +209,7 @@ fn a_system_of_bearing_and_rotor_is_as_exact_by_each_algorithm_as_its_page_says(
 
     let rows = table(&run(SYSTEM, &folder), 4);
     assert_eq!(rows.len(), 14);
-    let here = page("systems.md");
+    let here = page("how-to/systems.md");
     for bearing in ["healthy", "spalled"] {
         // Steps of 10 µs over the first 5 ms. Limits: twice what was found.
         let found = |told: &str| {

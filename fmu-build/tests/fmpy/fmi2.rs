@@ -95,6 +95,7 @@ fn an_fmu_and_a_run_without_a_host_give_equal_bits() {
             wav: None,
             figure: false,
             page: false,
+            open: false,
         };
         run::command(&Project::find(), common::model(name), &options, &folder).unwrap();
         assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), 2002, "a header and 2001 points");

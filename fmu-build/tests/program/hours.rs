@@ -1,4 +1,4 @@
-//! The pages `docs/hour-*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
+//! The pages `docs/tutorials/*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
 //! in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
 //!
 //! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use fmu_build::shared::{Project, Python};
 
-const PAGES: [&str; 4] = ["hour-catalogue.md", "hour-monitoring.md", "hour-data.md", "hour-rotor.md"];
+const PAGES: [&str; 4] = ["catalogue.md", "recording.md", "data-set.md", "rotor.md"];
 const COUNTED: &str = "*Typed: ";
 /// What is typed of a long command where the page is only compared.
 const FEWER: [&str; 2] = ["--runs 2000 ", "--runs 80 "];
@@ -43,8 +43,8 @@ fn user(page: &str) -> std::path::PathBuf {
     folder
 }
 
-/// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
-fn said(command: &str, folder: &Path) -> String {
+/// Runs a command in a folder, with this build's program.
+pub(super) fn typed(command: &str, folder: &Path) -> std::process::Output {
     let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
     // A page that runs no example needs not their half gigabyte.
     let python = if command.contains("python") { python() } else { common::python() };
@@ -60,7 +60,12 @@ fn said(command: &str, folder: &Path) -> String {
     if let Some(library) = common::built_with_the_tests() {
         shell.env("BRINELL_LIBRARY", library);
     }
-    let output = shell.output().unwrap();
+    shell.output().unwrap()
+}
+
+/// What a command says. Python's packages warn about what the machine lacks: their warnings are left out, ours are not.
+fn said(command: &str, folder: &Path) -> String {
+    let output = typed(command, folder);
     // What the program refuses is part of a transcript; a script that fails is not.
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() || command.starts_with("brinell "), "{command}: {errors}");
@@ -87,7 +92,7 @@ fn timeless(line: &str) -> String {
 /// The page as it comes out now, with all runs or with fewer.
 fn anew(page: &str, all: bool) -> String {
     let folder = user(page);
-    let text = fs::read_to_string(common::root().join("docs").join(page)).unwrap();
+    let text = fs::read_to_string(common::root().join("docs/tutorials").join(page)).unwrap();
     let (mut out, mut lines) = (String::new(), text.lines().peekable());
     let (mut commands, mut written, mut waited, before) = (0, 0, Duration::ZERO, core_seconds());
     while let Some(line) = lines.next() {
@@ -154,33 +159,33 @@ fn numberless(line: &str) -> String {
 
 /// Gives the page as it came out.
 fn is_what_happens(page: &str) -> String {
-    let there = fs::read_to_string(common::root().join("docs").join(page)).unwrap();
+    let there = fs::read_to_string(common::root().join("docs/tutorials").join(page)).unwrap();
     assert!(there.contains(COUNTED), "{page} counts no lines");
     let anew = anew(page, false);
     let (there, found) = (compared(&there), compared(&anew));
     for (number, (there, found)) in there.lines().zip(found.lines()).enumerate() {
-        assert_eq!(found, there, "docs/{page}, line {}", number + 1);
+        assert_eq!(found, there, "docs/tutorials/{page}, line {}", number + 1);
     }
-    assert_eq!(found.lines().count(), there.lines().count(), "docs/{page}");
+    assert_eq!(found.lines().count(), there.lines().count(), "docs/tutorials/{page}");
     anew
 }
 
 #[test]
 fn an_hour_with_a_catalogue_is_what_happens() {
-    is_what_happens("hour-catalogue.md");
+    is_what_happens("catalogue.md");
 }
 
 #[test]
 #[ignore = "sizes six recordings, two minutes of a core; `size` has tests of its own"]
 fn an_hour_with_a_recording_is_what_happens() {
-    is_what_happens("hour-monitoring.md");
+    is_what_happens("recording.md");
 }
 
 #[test]
 #[ignore = "runs eighty signals; the examples' tests have a labelled sweep as well"]
 fn an_hour_with_a_data_set_is_what_happens() {
     if has_ross() {
-        let page = is_what_happens("hour-data.md");
+        let page = is_what_happens("data-set.md");
         assert!(page.contains("{\"runs\": 80, \"failed\": 0, "), "{page}");
         // What guesses is right of one run in four.
         let right = page.split("\nright: ").nth(1).unwrap().split(' ').next().unwrap();
@@ -192,7 +197,7 @@ fn an_hour_with_a_data_set_is_what_happens() {
 #[ignore = "needs the environment of the examples, half a gigabyte"]
 fn an_hour_with_a_rotor_is_what_happens() {
     if has_ross() {
-        is_what_happens("hour-rotor.md");
+        is_what_happens("rotor.md");
     }
 }
 
@@ -205,10 +210,10 @@ fn has_ross() -> bool {
 
 /// All, or the one that the environment's `BRINELL_PAGE` names.
 #[test]
-#[ignore = "writes docs/hour-*.md"]
+#[ignore = "writes docs/tutorials/*.md"]
 fn write_the_hours() {
     let one = env::var("BRINELL_PAGE").ok();
     for page in PAGES.into_iter().filter(|page| one.as_ref().is_none_or(|one| one == page)) {
-        fs::write(common::root().join("docs").join(page), anew(page, true)).unwrap();
+        fs::write(common::root().join("docs/tutorials").join(page), anew(page, true)).unwrap();
     }
 }

@@ -16,4 +16,5 @@ mod schema;
 mod size;
 mod stiffness;
 mod sweep;
+mod typed;
 mod whole_files;

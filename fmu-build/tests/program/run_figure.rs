@@ -96,6 +96,6 @@ plotting.curve(axis, time, values, plotting.BLUE, None)
 light = axis.collections[0].get_paths()[0].vertices
 assert light[:, 0].min() == 0.0 and light[:, 0].max() == 20.0, light[:, 0].max()
 assert light[:, 1].max() == 50.0 and light[:, 1].min() == -70.0
-assert abs(light[light[:, 1] > 40][0, 0] - time[123_456]) < 20 / 120
+assert abs(light[light[:, 1] > 40][0, 0] - time[123_456]) < 20 / 480
 print("held")
 "#;

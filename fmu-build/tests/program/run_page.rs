@@ -226,3 +226,69 @@ for part in np.array_split(image[:2200], 10):
     assert (part.sum(axis=2) < 600).mean() > 0.002
 print("drawn", ink)
 "##;
+
+#[test]
+fn the_moving_bearing_is_the_run_and_opens_with_an_element_over_the_defect() {
+    let path = page("page-moving", "6205-two-defects", &["--stop", "0.2", "--columns", "*"]);
+    let script = path.with_file_name("moving.py");
+    fs::write(&script, MOVING).unwrap();
+    let table = path.with_extension("csv");
+    let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+    assert_eq!(said.trim(), "moving");
+}
+
+/// The motion in the page beside the table. Single precision: 6e-8 of the largest angle or path.
+const MOVING: &str = r##"
+import base64
+import json
+import sys
+import numpy as np
+
+text = open(sys.argv[1], encoding="utf-8").read()
+data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
+motion = data["motion"]
+numbers = lambda packed: np.frombuffer(base64.b64decode(packed), "<f4").astype(float)
+with open(sys.argv[2], encoding="utf-8") as file:
+    names = [cell.rsplit(" [", 1)[0] for cell in file.readline().strip().split(",")]
+    table = dict(zip(names, np.loadtxt(file, delimiter=",").T))
+every = motion["every"]
+for j in range(1, 10):
+    for mine, name in ((motion["path"], "path"), (motion["force"]["outer"], "force.outer")):
+        there = table[f"element[{j}].{name}"][::every]
+        here = numbers(mine[j - 1])
+        assert len(here) == len(there) and np.abs(here - there).max() <= 1e-7 * np.abs(there).max(), (j, name)
+    turned = numbers(motion["angle"][j - 1]) - table[f"element[{j}].angle"][::every]
+    assert np.abs((turned + np.pi) % (2 * np.pi) - np.pi).max() < 1e-5, j
+# Of the outer raceway's spall of 5 degrees the middle, within a step's way.
+k = round((motion["opens"] - motion["start"]) / motion["step"])
+angles = np.array([numbers(angle)[k] for angle in motion["angle"]])
+away = (angles - motion["defects"][0]["angle"] + np.pi) % (2 * np.pi) - np.pi
+assert np.abs(away).min() < 0.002 + 30 * motion["step"], away
+print("moving")
+"##;
+
+#[test]
+#[ignore = "measures the machine; opens a browser"]
+fn the_moving_bearing_is_drawn_sixty_times_a_second() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+        return;
+    };
+    let path = page("page-sixty", "6205-epps", &["--stop", "0.1"]);
+    let measured = path.with_file_name("measured.html");
+    fs::write(&measured, fs::read_to_string(&path).unwrap() + COST).unwrap();
+    let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
+    assert!(dom.contains("data-motion=\"drawn\""));
+    points(&dom);
+    let cost: f64 = dom.split("<pre id=\"cost\">").nth(1).unwrap().split('<').next().unwrap().parse().unwrap();
+    println!("{cost} ms");
+    assert!(cost < 1000.0 / 60.0, "{cost} ms a picture");
+}
+
+/// Milliseconds of a picture, the mean of 200 over the run.
+const COST: &str = r#"<pre id="cost"></pre><script>
+Promise.all(drawn).then(() => {
+  document.getElementById("cost").textContent = costOfPicture(200).toFixed(2);
+});
+</script>
+"#;

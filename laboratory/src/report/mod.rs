@@ -30,7 +30,7 @@ pub enum Extent {
     Short,
 }
 
-/// The command: `<folder>/error-vs-run-time.md`, its figures and, under `<folder>/data`, its CSV files.
+/// The command: `<folder>/evidence/error-vs-run-time.md`, its figures and, under `<folder>/data`, its CSV files.
 pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let [data, figures] = folders(folder)?;
     let python = Python::prepare(project)?;
@@ -40,7 +40,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/report.py"));
     print!("{}", python.run_file(script, [data.as_os_str(), stem.as_os_str()])?);
     let text = markdown::page(&machine::description(), &contacts, &integration)?;
-    let path = folder.join("error-vs-run-time.md");
+    let path = folder.join("evidence/error-vs-run-time.md");
     whole_file::write(&path, text)?;
     println!("{}", path.display());
     Ok(())
@@ -49,7 +49,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
 /// The folders for data and figures, made where they are missing.
 fn folders(folder: &Path) -> Result<[PathBuf; 2]> {
     let folders = ["data", "figures"].map(|name| folder.join(name));
-    for folder in &folders {
+    for folder in folders.iter().chain([&folder.join("evidence")]) {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     }
     Ok(folders)

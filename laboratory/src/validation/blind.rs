@@ -11,7 +11,7 @@ use brinell_analysis::sizing::{Report, Verdict};
 use brinell_analysis::statistics::Random;
 
 use super::Values;
-use super::runs::Case;
+use fmu_build::paper::Case;
 use fmu_build::shared::{Project, contact_map};
 
 const RATE: f64 = 51_200.0;
@@ -30,7 +30,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         ("30 µm, 500 N", "er16k-tb2-30um", 500.0),
         ("30 µm, 600 N", "er16k-tb2-30um", 600.0),
     ] {
-        let case = Case::shipped(project, name)?.with_load(load);
+        let case = Case::shipped(name)?.with_load(load);
         let found = sized(project, &case, recorded(project, &case)?, 1.0)?;
         let warned = if found.reason.contains("WARNING") { "yes" } else { "no" };
         let kind = format!("{:?}", found.kind).to_lowercase();
@@ -38,7 +38,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         writeln!(table, "| {label} | {} | {kind} | {critical} | {warned} |", verdict(&found))?;
     }
     values.set("blind_extended", table)?;
-    let rig = Case::shipped(project, "er16k-tb1")?;
+    let rig = Case::shipped("er16k-tb1")?;
     let mut table = String::new();
     for length in [0.0, 0.5, 1.0, 1.3] {
         let case = rig.clone().with_spall(length, 100e-6).at_speed(25.0);

@@ -1,5 +1,5 @@
-//! The command `validate`: every claim of the paper beside what comes out here, into `docs/validation.md` and its
-//! figures.
+//! The command `validate`: every claim of the paper beside what comes out here, into `docs/evidence/validation.md` and
+//! its figures.
 //!
 //! The prose stands in `assets/validation.md`; `{{name}}` in it is a table that is computed. Data go to
 //! `target/validation`.
@@ -9,7 +9,6 @@ pub mod blind;
 pub mod events;
 pub mod recordings;
 pub mod rigs;
-pub mod runs;
 pub mod statics;
 pub mod synthetic_rig;
 
@@ -17,14 +16,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use brinell::scene::ContactLaw;
-
 use fmu_build::shared::{Project, Python, csv, whole_file};
 use recordings::Known;
 
 const TEMPLATE: &str = include_str!("../../assets/validation.md");
-/// The laws that are laid beside each other.
-pub const LAWS: [ContactLaw; 2] = [ContactLaw::Map, ContactLaw::Hertz];
 
 /// What can be computed by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -92,9 +87,9 @@ impl Values {
     }
 }
 
-/// The command. `docs` is where `validation.md` and `figures/` are.
+/// The command. `docs` is where `evidence/validation.md` and `figures/` are.
 pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
-    fs::create_dir_all(docs).with_context(|| docs.display().to_string())?;
+    fs::create_dir_all(docs.join("evidence")).with_context(|| docs.display().to_string())?;
     let mut values = Values { folder: folder(project).join("tables") };
     let wanted = |part: Part, text: &str| {
         let wanted = options.only.is_none_or(|only| only == part);
@@ -104,7 +99,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
         wanted
     };
     if wanted(Part::Statics, "static stiffness and critical loads") {
-        statics::fill(project, &mut values)?;
+        statics::fill(&mut values)?;
     }
     if wanted(Part::Events, "single passages") {
         events::fill(project, &mut values)?;
@@ -133,15 +128,17 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
         );
         return Ok(());
     }
-    let path = docs.join("validation.md");
+    let path = docs.join("evidence/validation.md");
     whole_file::write(&path, values.filled(TEMPLATE)?)?;
     println!("{}", path.display());
     if options.figures {
         let python = Python::prepare(project)?;
         let figures = docs.join("figures");
         fs::create_dir_all(&figures).with_context(|| figures.display().to_string())?;
-        let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/validation.py"));
-        print!("{}", python.run_file(script, [folder(project), figures])?);
+        for name in ["four-events", "epps", "spectrograms", "assumptions", "beside"] {
+            let stem = figures.join(format!("validation-{name}"));
+            print!("{}", python.run("paper.py", [name.as_ref(), folder(project).as_os_str(), stem.as_os_str()])?);
+        }
     }
     Ok(())
 }
@@ -152,14 +149,7 @@ fn folder(project: &Project) -> PathBuf {
 
 /// Columns of equal length into `target/validation/<name>.csv`.
 fn write_csv(project: &Project, name: &str, names: &[(String, &str)], columns: &[Vec<f64>]) -> Result<()> {
-    whole_file::write_with(&folder(project).join(format!("{name}.csv")), |mut out| {
-        csv::header(&mut out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
-        let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
-        for i in 0..rows {
-            csv::row(&mut out, columns.iter().map(|column| column[i]))?;
-        }
-        Ok(())
-    })
+    csv::table(&folder(project).join(format!("{name}.csv")), names, columns)
 }
 
 #[cfg(test)]

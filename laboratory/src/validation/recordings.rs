@@ -1,7 +1,7 @@
 //! Recordings of a machine, sized singly and by group, and the scene of one of them beside it.
 //!
 //! The recordings belong to others and are not part of this project. What was found in them is:
-//! `docs/validation-recordings.md` is written anew only when recordings are given.
+//! `docs/evidence/validation-recordings.md` is written anew only when recordings are given.
 
 use std::fmt::Write;
 use std::fs;
@@ -14,8 +14,8 @@ use brinell_analysis::sizing;
 use brinell_analysis::sizing::passages::fold;
 use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport, event_length};
 
-use super::runs::Case;
 use super::{blind, write_csv};
+use fmu_build::paper::Case;
 use fmu_build::shared::{Project, contact_map};
 
 /// Scene of the rig.
@@ -80,7 +80,7 @@ impl Known {
 
 /// The table of recordings and the comparison with the scene, as Markdown.
 pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
-    let case = Case::shipped(project, SCENE)?;
+    let case = Case::shipped(SCENE)?;
     let [length, depth, slope] = FLANKS;
     let with_flanks = case.clone().with_flanks(length, depth, slope);
     let scene = Scene { defects: Vec::new(), ..case.scene.clone() };
@@ -197,7 +197,7 @@ fn inner_beside(project: &Project, recorded: &[Inside]) -> Result<String> {
     if recorded.is_empty() {
         return Ok(String::new());
     }
-    let case = Case::shipped(project, INNER_SCENE)?;
+    let case = Case::shipped(INNER_SCENE)?;
     let mut text = String::from(
         "\n### The inner scene beside the recording of 5°\n\n\
          | shaft (Hz) | | looks like | two loudest (° apart) | impacts (° after the first) | onset before the first \
@@ -350,7 +350,7 @@ fn write_beside(
 
 /// Where the table of recordings is kept.
 pub fn kept(docs: &Path) -> PathBuf {
-    docs.join("validation-recordings.md")
+    docs.join("evidence/validation-recordings.md")
 }
 
 /// The table as it was written last.

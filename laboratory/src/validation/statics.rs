@@ -5,14 +5,11 @@ use std::fmt::Write;
 
 use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
-use brinell_analysis::statics::{StaticBearing, min_mean_max, sweep};
+use brinell_analysis::statics::StaticBearing;
 
 use super::Values;
-use super::runs::Case;
-use fmu_build::shared::Project;
-
-/// Evenly spaced cage angles of a sweep.
-const ANGLES: usize = 200;
+use fmu_build::paper::statics::bearing;
+use fmu_build::paper::{self, Case};
 
 /// Rows of the stiffness table: label, scene, spall depth (m) where it is not the scene's, load (N), and the
 /// prototype's figures (N/µm).
@@ -26,10 +23,10 @@ const ROWS: [Row; 5] = [
 ];
 
 /// Fills in `stiffness`, `critical`, `depths`, `clearances`, `compliances` and `sensitivity`.
-pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
-    values.set("stiffness", stiffness(project)?)?;
-    let deep = bearing(&Case::shipped(project, "er16k-tb2")?.with_law(ContactLaw::Hertz))?;
-    values.set("critical", critical_loads(project)?)?;
+pub fn fill(values: &mut Values) -> Result<()> {
+    values.set("stiffness", stiffness()?)?;
+    let deep = bearing(&Case::shipped("er16k-tb2")?.with_law(ContactLaw::Hertz))?;
+    values.set("critical", critical_loads()?)?;
     let mut table = String::new();
     for depth in [20.0, 25.0, 30.0, 33.0, 40.0, 50.0, 75.0, 100.0] {
         writeln!(table, "| {depth:.0} | {} |", load(&deep.with_depth_times(depth / 100.0)?)?)?;
@@ -65,21 +62,14 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
     Ok(())
 }
 
-fn stiffness(project: &Project) -> Result<String> {
+fn stiffness() -> Result<String> {
     let mut table = String::new();
     for (label, name, depth, load, prototype) in ROWS {
-        let case = if name == "healthy" {
-            Case::shipped(project, "er16k-tb1")?.with_spall(0.0, 0.0)
-        } else {
-            Case::shipped(project, name)?
-        };
+        let case =
+            if name == "healthy" { Case::shipped("er16k-tb1")?.with_spall(0.0, 0.0) } else { Case::shipped(name)? };
         let case = case.with_load(load);
         let case = depth.map_or(case.clone(), |depth| case.clone().with_spall(case.length(), depth));
-        let of = |law: ContactLaw| -> Result<[f64; 3]> {
-            let bearing = bearing(&case.clone().with_law(law))?;
-            let swept = sweep(&bearing, -std::f64::consts::FRAC_PI_2, ANGLES)?;
-            Ok(min_mean_max(&swept, |balance| 1e-6 * balance.free_stiffness()))
-        };
+        let of = |law: ContactLaw| paper::statics::stiffness(&case.clone().with_law(law));
         let shown = |k: [f64; 3]| k.map(|k| format!("{k:.1}")).join(" / ");
         let (hertz, map) = (of(ContactLaw::Hertz)?, of(ContactLaw::Map)?);
         let theirs = prototype.map_or("minimum 27.8, then 55.6".to_owned(), shown);
@@ -88,7 +78,7 @@ fn stiffness(project: &Project) -> Result<String> {
     Ok(table)
 }
 
-fn critical_loads(project: &Project) -> Result<String> {
+fn critical_loads() -> Result<String> {
     let mut table = String::new();
     let theirs = |name: &str| if name == "er16k-tb2" { "3630" } else { "500–600 (paper)" };
     for (label, name) in [
@@ -96,7 +86,7 @@ fn critical_loads(project: &Project) -> Result<String> {
         ("TB2, 30 µm", "er16k-tb2-30um"),
         ("TB2, 100 µm, 65 nm/N in series", "er16k-tb2-compliant"),
     ] {
-        let case = Case::shipped(project, name)?;
+        let case = Case::shipped(name)?;
         let hertz = load(&bearing(&case.clone().with_law(ContactLaw::Hertz))?)?;
         let map = if name == "er16k-tb2-compliant" {
             "beyond the map".to_owned()
@@ -106,10 +96,6 @@ fn critical_loads(project: &Project) -> Result<String> {
         writeln!(table, "| {label} | {} | {hertz} | {map} |", theirs(name))?;
     }
     Ok(table)
-}
-
-fn bearing(case: &Case) -> Result<StaticBearing> {
-    Ok(StaticBearing::new(&case.scene, case.profile())?)
 }
 
 fn load(bearing: &StaticBearing) -> Result<String> {

@@ -15,7 +15,7 @@
 //! Δ is u on the smooth raceway and u − depth on a flat floor, whatever the resolution and the difference between
 //! circles and Hertz's paraboloids (0.4 to 2.4 % in force): the law joins the closed form without a jump. E* and K
 //! cancel. Any function of (u, s) is a potential, hence the rescaling costs no energy either. On the smooth raceway
-//! there remains the ripple of the grid as the element passes over its cells; `docs/contact.md` gives figures.
+//! there remains the ripple of the grid as the element passes over its cells; `docs/evidence/contact.md` gives figures.
 //!
 //! Pressure at a sharp corner grows without bound as the grid is refined (the force does not). A half-space knows
 //! nothing of the corner's own compliance; [`LoveContact::with_edges`] adds it.

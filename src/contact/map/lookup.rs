@@ -12,7 +12,7 @@
 //! begins on a line across the map, and only the cells on that line need to be small.
 //!
 //! Valid for Δ up to `largest_approach`; above, Δ is continued linearly up to [`CONTINUED`] times that, where F is some
-//! per cent off (`docs/contact.md`), and beyond a lookup is an error, never a number.
+//! per cent off (`docs/evidence/contact.md`), and beyond a lookup is an error, never a number.
 
 use crate::contact::equivalent::EquivalentApproach;
 use crate::contact::error::ContactError;

@@ -1,4 +1,4 @@
-//! What many random scenes came to: the section of `docs/stability.md`.
+//! What many random scenes came to: the section of `docs/evidence/stability.md`.
 
 use super::commands::Compared;
 use super::judge::{Measure, Verdict};

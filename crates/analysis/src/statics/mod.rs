@@ -1,10 +1,12 @@
 //! The bearing at rest: load distribution, stiffness, critical load.
 
 mod critical_load;
+mod load_rating;
 mod static_bearing;
 mod stiffness;
 
 pub use critical_load::{Bottom, CriticalLoad, NoCriticalLoad, Sensitivity};
+pub use load_rating::{dynamic_rating, static_rating};
 pub use static_bearing::{Balance, LoadedElement, StaticBearing, StaticError};
 pub use stiffness::{min_mean_max, sweep};
 

@@ -1,0 +1,81 @@
+"""What the moving bearing of a run's page is drawn from: dimensions, and where everything is at even times."""
+
+import base64
+
+import numpy as np
+
+# Numbers of all motions together, 5.3 bytes each in the page.
+MOST_NUMBERS = 260_000
+
+
+def packed(values):
+    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def turning(run, name, speed, every):
+    """An angle that grows without a jump; where the run has none, from the speed."""
+    time = np.asarray(run.table["time"])
+    if run.has(name):
+        return np.unwrap(np.asarray(run.table[name]))[::every]
+    rates = np.asarray(run.table[speed]) if run.has(speed) else np.zeros(len(time))
+    steps = np.append(0.0, np.cumsum(0.5 * (rates[1:] + rates[:-1]) * np.diff(time)))
+    return steps[::every]
+
+
+def crossing(angles, about, shaft, housing, time, spins):
+    """A time in the second half of the run at which an element is over the middle of the first defect."""
+    if not about["defects"]:
+        return float(time[len(time) // 2])
+    defect = about["defects"][0]
+    if defect["on"] == "element":
+        # Its own defect faces the outer raceway.
+        angles, defect = [spins[defect["element"]]], {**defect, "angle": 0.0}
+    turned = {"outer": housing, "inner": shaft}.get(defect["on"], np.zeros(len(time)))
+    best = np.inf, 0
+    for angle in angles:
+        away = np.abs((angle - turned - defect["angle"] + np.pi) % (2 * np.pi) - np.pi)
+        late = np.arange(len(time)) >= len(time) // 2
+        k = int(np.argmin(np.where(late, away, np.inf)))
+        best = min(best, (away[k], k))
+    return float(time[best[1]])
+
+
+def motion(run, about):
+    """All of it, or None where the table lacks an element's motion."""
+    count = about["count"]
+    if not all(run.has(f"element[{j}].path") for j in range(1, count + 1)):
+        return None
+    every = max(1, -(-len(run.table["time"]) * (4 * count + 9) // MOST_NUMBERS))
+    of = lambda name: np.asarray(run.table[name])[::every] if run.has(name) else None  # noqa: E731
+    each = lambda what: [packed(of(f"element[{j}].{what}")) for j in range(1, count + 1)]  # noqa: E731
+    ring = lambda name: {  # noqa: E731
+        axis: packed(of(f"{name}.{axis}")) for axis in ("x", "y", "force.x", "force.y") if run.has(f"{name}.{axis}")
+    }
+    time = of("time")
+    shaft, housing = turning(run, "shaft.angle", "shaft.speed", every), turning(run, "housing.angle", "housing.speed", every)
+    angles = [np.unwrap(of(f"element[{j}].angle")) for j in range(1, count + 1)]
+    spins = {
+        defect["element"]: np.unwrap(of(f"element[{defect['element']}].spin_angle"))
+        for defect in about["defects"]
+        if defect["on"] == "element"
+    }
+    return {
+        "count": count,
+        "radius": about["element_radius"],
+        "outer": about["outer_radius"],
+        "inner": about["inner_radius"],
+        "clearance": about["clearance"],
+        "defects": about["defects"],
+        "start": float(time[0]),
+        "step": float(time[1] - time[0]),
+        "every": every,
+        "opens": crossing(angles, about, shaft, housing, time, spins),
+        "passage": about["passage"],
+        "sensor": about["sensor"],
+        "shaft": {**ring("shaft"), "angle": packed(shaft)},
+        "housing": {**ring("housing"), "angle": packed(housing)},
+        "angle": [packed(angle) for angle in angles],
+        "path": each("path"),
+        "force": {"outer": each("force.outer"), "inner": each("force.inner")},
+        "spin": {j: packed(spin) for j, spin in spins.items()},
+    }
