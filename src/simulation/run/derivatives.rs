@@ -15,6 +15,8 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
+use super::life::UpToDate;
+use super::refresh::Present;
 use super::values::{as_many, out_of_range};
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
@@ -47,10 +49,14 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         self.refresh()?;
+        let acceleration = self.outputs().acceleration(RingName::Housing);
         let excitation = self.excitation(true);
-        self.evaluate(&excitation);
+        if excitation != self.present.excitation || self.model.solves_grids() {
+            self.evaluate(excitation);
+            self.invalidate(UpToDate::State);
+        }
         self.along_time(&excitation);
-        self.finish_change(references);
+        self.finish_change(references, acceleration);
         for (value, &reference) in values.iter_mut().zip(references) {
             *value = self.changed(self.quantities[reference as usize]);
         }
@@ -100,22 +106,23 @@ impl Simulation {
             }
         }
         self.refresh()?;
-        self.forces.shortcuts.forget();
+        let acceleration = self.outputs().acceleration(RingName::Housing);
+        self.present.evaluation.forces.shortcuts.forget();
         self.along_inputs(knowns, seed);
         if !self.state.started {
-            let excitation = self.excitation(false);
             let (progress, loads) = (&self.state.progress, self.change.loads);
+            let Present { excitation, evaluation, .. } = &mut self.present;
             let found = self.model.vary_equilibrium(
-                &excitation,
+                excitation,
                 &progress.cells,
                 &progress.state,
                 loads,
                 &mut self.change.variation,
-                &mut self.forces.shortcuts,
+                &mut evaluation.forces.shortcuts,
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
-        self.finish_change(unknowns);
+        self.finish_change(unknowns, acceleration);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
             *value = self.changed(self.quantities[reference as usize]);
         }
@@ -192,7 +199,7 @@ impl Simulation {
 
     /// The change per second of state and inputs.
     fn along_time(&mut self, excitation: &Excitation) {
-        let change = &mut self.change;
+        let (change, derivative) = (&mut self.change, &self.present.evaluation.derivative);
         change.clear();
         let layout = &self.model.layout;
         let z = layout.element_count;
@@ -200,15 +207,15 @@ impl Simulation {
         (variation.cage_angle, variation.cage_speed) = (excitation.cage.0[1], excitation.cage.0[2]);
         variation.frames = excitation.frame_rates(0.0);
         variation.film_speed = excitation.relative_speed.rate_at(0.0);
-        variation.path.copy_from_slice(&self.derivative[..z]);
-        variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
-        [variation.shaft, variation.housing] = self.model.ring_rates(excitation, 0.0, &self.derivative);
+        variation.path.copy_from_slice(&derivative[..z]);
+        variation.radial_velocity.copy_from_slice(&derivative[layout.radial_velocity..][..z]);
+        [variation.shaft, variation.housing] = self.model.ring_rates(excitation, 0.0, derivative);
         for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
-            *sensor = [self.derivative[i], self.derivative[i + 1]];
+            *sensor = [derivative[i], derivative[i + 1]];
         }
         for (k, i) in layout.sensor_indices().enumerate() {
             change.by_sensor_modes[k] =
-                self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
+                self.model.sensor_modes.rate(k, derivative[i + 1], &self.state.progress.sensor_modes);
         }
         // Those of internal rings follow from the forces' change.
         change.accelerations = [&excitation.shaft, &excitation.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
@@ -217,14 +224,16 @@ impl Simulation {
         }
     }
 
-    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
-    fn finish_change(&mut self, unknowns: &[u32]) {
+    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
+    /// outer ring's `acceleration` is the present one (m/s²).
+    fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
         let excitation = self.excitation(false);
+        let forces_now = &mut self.present.evaluation.forces;
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
-        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.shortcuts);
+        let Change { variation, forces, .. } = &mut *change;
+        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut forces_now.shortcuts);
 
         // At the start nothing accelerates, whatever the inputs are.
         if self.state.started {
@@ -256,13 +265,13 @@ impl Simulation {
             let mut settled = Vec::new();
             let state = if self.model.elements_in_balance() {
                 settled.extend_from_slice(state);
-                self.forces.settle(&self.model, &mut settled);
+                forces_now.settle(&self.model, &mut settled);
                 &settled[..]
             } else {
                 state
             };
             change.stiffness =
-                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.shortcuts);
+                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut forces_now.shortcuts);
         }
     }
 

@@ -1,11 +1,11 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
 use super::excitation;
+use super::refresh::Present;
 use super::state::{Ended, State};
 use crate::contact::map::ContactMaps;
-use crate::dynamics::contacts::{Forces, Shortcuts};
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
-use crate::numerics::plane::Vector;
 use crate::scene::{ContactLaw, Scene, nearest};
 use crate::simulation::Method;
 use crate::simulation::error::{SimulationError, VariableError};
@@ -38,11 +38,8 @@ pub struct Simulation {
     /// `None` where the scene has no recorder.
     pub(in crate::simulation) recorder: Option<Recorder>,
     pub(super) method: Method,
-    pub(in crate::simulation) forces: Forces,
-    pub(in crate::simulation) derivative: Vec<f64>,
+    pub(in crate::simulation) present: Present,
     pub(in crate::simulation) change: Change,
-    /// The outer ring's acceleration when outputs were computed last (m/s²).
-    pub(in crate::simulation) present_acceleration: Vector,
     pub(in crate::simulation) state: State,
     pub(super) up_to_date: UpToDate,
 }
@@ -56,8 +53,8 @@ pub(in crate::simulation) enum UpToDate {
     Model,
     /// The state vector.
     State,
-    /// All outputs but the stiffness.
-    Outputs,
+    /// Derivative and forces, from which all outputs follow but the stiffness.
+    Forces,
     /// The stiffness as well.
     Stiffness,
 }
@@ -138,10 +135,8 @@ impl Simulation {
             workspace: Workspace::new(&model),
             recorder,
             method: Method::Automatic,
-            forces: Forces::of(&model),
-            derivative: vec![0.0; model.layout.len],
+            present: Present::new(&model),
             change: Change::new(model.element_count),
-            present_acceleration: Vector::zeros(),
             state: State {
                 time: 0.0,
                 started: false,
@@ -356,21 +351,12 @@ impl Simulation {
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
-        self.evaluate(&excitation);
-        let progress = &mut self.state.progress;
-        self.forces.note_pushing(&mut progress.pushing);
-        let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
-        progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
+        self.evaluate(excitation);
+        let (progress, forces) = (&mut self.state.progress, &self.present.evaluation.forces);
+        forces.note_pushing(&mut progress.pushing);
+        progress.mean_force = forces.rings;
         self.up_to_date = UpToDate::State;
         Ok(())
-    }
-
-    /// Derivative and forces at the communication point under `excitation`. They must not depend on what was computed
-    /// before, or a restored state would show other roundings.
-    pub(super) fn evaluate(&mut self, excitation: &Excitation) {
-        self.forces.shortcuts.forget();
-        let (progress, derivative) = (&self.state.progress, &mut self.derivative);
-        self.model.derivative(excitation, 0.0, &progress.cells, &progress.state, derivative, &mut self.forces);
     }
 
     fn rebuild(&mut self) -> Result<(), SimulationError> {
@@ -379,7 +365,7 @@ impl Simulation {
         }
         let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
         self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
-        for forces in [&mut self.forces, &mut self.workspace.forces] {
+        for forces in [&mut self.present.evaluation.forces, &mut self.workspace.forces] {
             forces.shortcuts = Shortcuts::of(&self.model);
         }
         self.up_to_date = UpToDate::Model;

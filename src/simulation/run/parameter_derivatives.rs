@@ -40,7 +40,8 @@ impl Simulation {
     /// of the most, beside which it counts for nothing. Positions are known to 1e-19 m, and a force hardly changes if a
     /// free ring follows. Of crowned rollers, whose stiffness has a corner for each lamina, it is 1e-4.
     fn share_of_approaches(&self) -> f64 {
-        let (approaches, law) = (&self.forces.contacts.inner_approach, &self.model.inner.contact.law);
+        let (approaches, law) =
+            (&self.present.evaluation.forces.contacts.inner_approach, &self.model.inner.contact.law);
         let pressed = approaches.iter().filter(|approach| **approach > 0.0);
         let [least, most] = pressed.fold([f64::MAX, 0.0], |[least, most], now| [now.min(least), now.max(most)]);
         let share = if matches!(law.elasticity, Elasticity::Crowned(_)) { 1e-4 } else { 1e-2 };

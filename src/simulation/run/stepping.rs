@@ -66,8 +66,8 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        let (control, excitation) = self.prepare(step)?;
-        let advanced = self.stepper(&excitation, control).advance(step);
+        let (control, excitation, known) = self.prepare(step)?;
+        let advanced = self.stepper(&excitation, control, known).advance(step);
         advanced.map_err(|cause| self.failed(cause))?;
         self.commit(&excitation, step);
         Ok(())
@@ -103,8 +103,8 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
-        let (control, excitation) = self.prepare(step)?;
-        let begun = self.stepper(&excitation, control).start(step);
+        let (control, excitation, known) = self.prepare(step)?;
+        let begun = self.stepper(&excitation, control, known).start(step);
         let advance = begun.map_err(|cause| self.failed(cause))?;
         Ok(StepUnderWay { excitation, control, advance })
     }
@@ -115,14 +115,14 @@ impl Simulation {
     /// What cannot be integrated; the communication step is then lost.
     pub fn advance_once(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
         let StepUnderWay { excitation, control, advance } = under_way;
-        let taken = self.stepper(excitation, *control).advance_once(advance);
+        let taken = self.stepper(excitation, *control, false).advance_once(advance);
         taken.map_err(|cause| self.failed(cause))
     }
 
     /// Ends a communication step where it has come to.
     pub fn end_step(&mut self, under_way: StepUnderWay) {
         let StepUnderWay { excitation, control, advance } = under_way;
-        self.stepper(&excitation, control).finish(&advance);
+        self.stepper(&excitation, control, false).finish(&advance);
         self.commit(&excitation, advance.tau);
     }
 
@@ -146,7 +146,7 @@ impl Simulation {
         self.up_to_date = UpToDate::State;
         if self.input_values() != inspection.arrived && !under_way.is_done() {
             let StepUnderWay { excitation, control, advance } = &*under_way;
-            self.stepper(excitation, *control).finish_part(advance);
+            self.stepper(excitation, *control, false).finish_part(advance);
             let mut next = self.begin_step(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;
@@ -161,17 +161,19 @@ impl Simulation {
         Ok(())
     }
 
-    /// Checks a step, and readies for it what goes along with the integration.
+    /// Checks a step, and readies for it what goes along with the integration. Also gives whether the right-hand side
+    /// is known where it begins.
     #[inline]
-    fn prepare(&mut self, step: f64) -> Result<(Control, Excitation), SimulationError> {
+    fn prepare(&mut self, step: f64) -> Result<(Control, Excitation, bool), SimulationError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(SimulationError::CommunicationStep(step));
         }
         if !self.state.started {
             return Err(SimulationError::NotInitialized);
         }
+        let known = self.begins_evaluated();
+        let excitation = if known { self.present.excitation } else { self.excitation(true) };
         self.up_to_date = UpToDate::State;
-        let excitation = self.excitation(true);
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {
             self.check_films(&excitation, tau)?;
@@ -191,14 +193,15 @@ impl Simulation {
             max_steps: self.scene.max_steps,
             method,
         };
-        Ok((control, excitation))
+        Ok((control, excitation, known))
     }
 
     #[inline]
-    fn stepper<'a>(&'a mut self, excitation: &'a Excitation, control: Control) -> Stepper<'a> {
+    fn stepper<'a>(&'a mut self, excitation: &'a Excitation, control: Control, known: bool) -> Stepper<'a> {
         Stepper {
             problem: Problem { model: &self.model, excitation },
             control,
+            known: known.then_some(&self.present.evaluation),
             workspace: &mut self.workspace,
             progress: &mut self.state.progress,
             recorder: self.recorder.as_mut().filter(|recorder| recorder.is_on()),

@@ -80,7 +80,7 @@ impl Simulation {
         self.set_reals(&[index as u32], &[tolerance.max(least)])
     }
 
-    /// Reads reals, one for each place in `values`. Outputs are computed if something has changed since they were last.
+    /// Reads reals, one for each place in `values`. Of outputs those are computed that are asked for.
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
         as_many(references.len(), values.len())?;
         let Some(classes) = value_access::classes(&self.access, references) else {
@@ -92,8 +92,11 @@ impl Simulation {
         if classes & value_access::STIFFNESS != 0 {
             self.refresh_stiffness();
         }
+        let outputs = self.outputs();
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.state.reals[reference as usize];
+            let i = reference as usize;
+            let is_output = self.access[i].is(value_access::OUTPUT);
+            *value = if is_output { self.output(&outputs, self.quantities[i]) } else { self.state.reals[i] };
         }
         Ok(())
     }
@@ -131,19 +134,21 @@ impl Simulation {
     /// Reads integers and enumerations.
     pub fn integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), SimulationError> {
         as_many(references.len(), values.len())?;
-        let mut outputs = false;
         for &reference in references {
             let variable = self.variable(reference)?;
             if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
                 return Err(wrong_type(variable, "Integer").into());
             }
-            outputs |= variable.kind == Kind::Integer;
         }
-        if outputs {
-            self.refresh()?;
-        }
+        let solves_grids = self.model.solves_grids();
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.state.integers[reference as usize];
+            let i = reference as usize;
+            *value = match self.quantities[i] {
+                Quantity::Count(count) => {
+                    i32::try_from(self.state.progress.count(count, solves_grids)).unwrap_or(i32::MAX)
+                }
+                _ => self.state.integers[i],
+            };
         }
         Ok(())
     }
