@@ -3,8 +3,8 @@
 
 pub(crate) use crate::two::Resources;
 use brinell::simulation::Simulation;
+use brinell::simulation::interface::of_all_elements;
 use brinell::simulation::interface::table::Variable;
-use brinell::simulation::run::of_all_elements;
 use brinell_fmi::fmi3::*;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString};

@@ -19,7 +19,7 @@ fn readable(scene: &str) -> Vec<String> {
     let name = |reference: &u32| {
         let row = &host.table()[*reference as usize];
         let is_array = arrays.iter().any(|array| array.rows[0] == *reference);
-        if is_array { brinell::simulation::run::of_all_elements(row).0 } else { row.name.clone() }
+        if is_array { brinell::simulation::interface::of_all_elements(row).0 } else { row.name.clone() }
     };
     let is_output = |reference: &u32| {
         let row = &host.table()[*reference as usize];

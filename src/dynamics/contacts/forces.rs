@@ -110,7 +110,7 @@ impl Forces {
     }
 
     /// Sorts the elements by the surfaces they are on. What follows inside kernels is for these cells.
-    pub(in crate::dynamics) fn enter(&mut self, model: &Model, cells: &Cells) {
+    pub(crate) fn enter(&mut self, model: &Model, cells: &Cells) {
         let rigid = model.outer.contact.compliance == 0.0;
         self.non_smooth_outer.clear();
         self.non_smooth_inner.clear();

@@ -72,8 +72,14 @@ impl Layout {
 
     /// Index of the displacement of each sensor; its velocity is the next.
     pub fn sensor_indices(&self) -> impl Iterator<Item = usize> + use<> {
-        let start = self.sensors;
-        (0..self.sensor_count).map(move |k| start + k * QUAD)
+        let layout = *self;
+        (0..self.sensor_count).map(move |k| layout.sensor_index(k))
+    }
+
+    /// Index of the displacement of sensor `k`.
+    #[inline]
+    pub fn sensor_index(&self, k: usize) -> usize {
+        self.sensors + k * QUAD
     }
 
     /// The lists that the state is made up of.

@@ -256,9 +256,9 @@ impl Model {
     /// Angle χ (rad) by which the first defect of element `j` has turned from the direction of the element's centre,
     /// for the angles of frames and that of the element; 0 where it faces the outer raceway, the turns since then
     /// counted.
-    pub fn spin_angle(&self, j: usize, frames: &[f64; 3], element: f64) -> f64 {
+    pub fn spin_angle(&self, j: usize, spin: f64, element: f64) -> f64 {
         let own = self.defective.iter().find(|defective| defective.element == j);
-        own.map_or(0.0, |own| own.mark) + frames[Frame::Spin as usize] - element
+        own.map_or(0.0, |own| own.mark) + spin - element
     }
 
     /// Radial direction of element `j`.

@@ -15,4 +15,4 @@ pub use advance::Advance;
 pub use progress::{Progress, StepCounts};
 pub use stepper::{Control, Stepper};
 pub use switching::{Choice, Method};
-pub use workspace::{Problem, Span, Workspace};
+pub use workspace::{Evaluation, Problem, Span, Workspace};

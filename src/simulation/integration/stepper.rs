@@ -16,7 +16,7 @@ use super::kernels::{probe, try_step};
 use super::progress::Progress;
 use super::step_size::{factor_over_change, share_of, step_factor};
 use super::switching::Method;
-use super::workspace::{Problem, Span, Workspace, step_ends};
+use super::workspace::{Evaluation, Problem, Span, Workspace, step_ends};
 use crate::dynamics::parameters::Defects;
 use crate::scene::Motion;
 use crate::simulation::integration::landing::{Crossing, Knot, Legs, first_change, first_crossing, next_knot};
@@ -51,6 +51,8 @@ pub struct Stepper<'a> {
     pub problem: Problem<'a>,
     /// How.
     pub control: Control,
+    /// The right-hand side where the communication step begins, if that has been evaluated.
+    pub known: Option<&'a Evaluation>,
     /// Where.
     pub workspace: &'a mut Workspace,
     /// The state that advances.
@@ -145,7 +147,7 @@ impl Stepper<'_> {
 
     /// The first stage of the first step, and the method that takes it.
     fn begin(&mut self) -> Result<(), StepError> {
-        let Self { problem, control, workspace, progress, .. } = self;
+        let Self { problem, control, known, workspace, progress, .. } = self;
         // A step that failed may have left them.
         (workspace.forces.defect_lookups, workspace.forces.unsolved) = (0, None);
         match control.method {
@@ -154,7 +156,10 @@ impl Stepper<'_> {
             Method::Rodas => progress.choice.implicit = true,
         }
         check_rings(*problem, 0.0, progress)?;
-        workspace.first_stage(*problem, 0.0, progress);
+        match known {
+            Some(known) => workspace.first_stage_is(known, *problem, progress),
+            None => workspace.first_stage(*problem, 0.0, progress),
+        }
         if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
             workspace.linearize(*problem, 0.0, progress);
             progress.choice.check_first(&workspace.jacobian, control.method, control.tolerance);

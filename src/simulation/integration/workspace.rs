@@ -59,6 +59,22 @@ impl Span {
     }
 }
 
+/// The right-hand side at one instant.
+#[derive(Debug, Clone)]
+pub struct Evaluation {
+    /// The state's derivative.
+    pub derivative: Row,
+    /// Forces on the rings, and each contact.
+    pub forces: Forces,
+}
+
+impl Evaluation {
+    /// Room for a model's.
+    pub fn new(model: &Model) -> Self {
+        Self { derivative: Row::zeros(model.layout.len), forces: Forces::of(model) }
+    }
+}
+
 /// Workspaces of the integration; holds nothing that the future depends on.
 #[derive(Debug, Clone)]
 pub struct Workspace {
@@ -118,6 +134,15 @@ impl Workspace {
         let (first, forces) = (&mut self.buffers.first, &mut self.forces);
         problem.model.derivative(problem.excitation, tau, &progress.cells, &progress.state, first, forces);
         self.first_force = self.forces.rings;
+        self.linearized = false;
+    }
+
+    /// The same of a step that starts where the right-hand side has been evaluated.
+    pub(super) fn first_stage_is(&mut self, known: &Evaluation, problem: Problem, progress: &Progress) {
+        self.buffers.first.copy_from_slice(&known.derivative);
+        self.forces.enter(problem.model, &progress.cells);
+        self.forces.defect_lookups += known.forces.defect_lookups;
+        self.first_force = known.forces.rings;
         self.linearized = false;
     }
 

@@ -1,5 +1,6 @@
 //! What a host sees: the variables, their values, and their derivatives.
 
+mod arrays;
 pub(in crate::simulation) mod dependencies;
 mod inputs;
 mod log_category;
@@ -8,7 +9,9 @@ mod outputs;
 mod quantity;
 pub mod table;
 pub(in crate::simulation) mod value_access;
+mod variables;
 
+pub use arrays::{ElementArray, of_all_elements};
 pub use log_category::Category;
 pub use outputs::{Angles, Outputs, Solution};
 pub use quantity::{Count, Parameter, Quantity, RingName};
@@ -16,4 +19,6 @@ pub use quantity::{Count, Parameter, Quantity, RingName};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
-pub(in crate::simulation) use value_access::Access;
+pub(in crate::simulation) use variables::{
+    COMPUTED, FIXED, Interface, as_many, not_settable, out_of_range, wrong_type,
+};

@@ -2,9 +2,8 @@
 
 use super::quantity::{Quantity, RingName};
 use crate::dynamics::contacts::Forces;
-use crate::dynamics::parameters::{CageState, Excitation, Frame, Model, RingState};
+use crate::dynamics::parameters::{Excitation, Frame, Model, RingState};
 use crate::numerics::plane::Vector;
-use crate::scene::MOST_SENSORS;
 
 /// Angles of the cage and of the frames of defects (rad), all turns counted.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,79 +29,85 @@ pub struct Solution<'a> {
     pub sensor_modes: &'a [f64],
 }
 
-/// All that the outputs of one instant are computed from.
-#[derive(Debug)]
+/// The outputs of one instant, each computed when it is asked for.
+#[derive(Debug, Clone, Copy)]
 pub struct Outputs<'a> {
-    state: &'a [f64],
-    forces: &'a Forces,
-    ring: [RingState; 2],
-    acceleration: [Vector; 2],
-    sensors: [f64; MOST_SENSORS],
-    angles: Angles,
-    /// The nominal cage.
-    cage: CageState,
     model: &'a Model,
-    excitation: &'a Excitation,
-    tau: f64,
+    solution: Solution<'a>,
+    forces: &'a Forces,
+    /// Angles at the communication point.
+    start: Angles,
 }
 
 impl<'a> Outputs<'a> {
-    /// Acceleration of the outer ring (m/s²).
-    pub(in crate::simulation) fn housing_acceleration(&self) -> Vector {
-        self.acceleration[RingName::Housing.index()]
-    }
-
     /// Those of a solution. Its derivative and `forces` are the model's for its state; `start` are the angles at the
     /// communication point.
     pub fn new(model: &'a Model, solution: Solution<'a>, forces: &'a Forces, start: Angles) -> Self {
-        let Solution { excitation, tau, state, derivative, sensor_modes } = solution;
-        let mut sensors = [0.0; MOST_SENSORS];
-        for (k, i) in model.layout.sensor_indices().enumerate() {
-            sensors[k] = model.sensor_modes.measured(k, derivative[i + 1], sensor_modes);
+        Self { model, solution, forces, start }
+    }
+
+    fn ring(&self, ring: RingName) -> RingState {
+        let Solution { excitation, tau, state, .. } = self.solution;
+        match ring {
+            RingName::Shaft => self.model.shaft_state(excitation, tau, state),
+            RingName::Housing => self.model.housing_state(excitation, tau, state),
         }
-        Self {
-            state,
-            forces,
-            ring: [model.shaft_state(excitation, tau, state), model.housing_state(excitation, tau, state)],
-            acceleration: model.ring_rates(excitation, tau, derivative).map(|ring| ring.velocity),
-            sensors,
-            angles: Angles {
-                cage: start.cage + excitation.cage.at(tau),
-                frames: std::array::from_fn(|i| start.frames[i] + excitation.frames[i].since.at(tau)),
-            },
-            cage: excitation.cage_at(tau),
-            model,
-            excitation,
-            tau,
-        }
+    }
+
+    /// Acceleration of a ring (m/s²).
+    pub(in crate::simulation) fn acceleration(&self, ring: RingName) -> Vector {
+        let Solution { excitation, tau, derivative, .. } = self.solution;
+        self.model.ring_rates(excitation, tau, derivative)[ring.index()].velocity
+    }
+
+    /// What sensor `k` measures (m/s²).
+    fn sensor(&self, k: usize) -> f64 {
+        let Solution { derivative, sensor_modes, .. } = self.solution;
+        let own = derivative[self.model.layout.sensor_index(k) + 1];
+        self.model.sensor_modes.measured(k, own, sensor_modes)
+    }
+
+    /// Angle of the nominal cage, all turns counted (rad).
+    fn cage_angle(&self) -> f64 {
+        self.start.cage + self.solution.excitation.cage.at(self.solution.tau)
+    }
+
+    /// Angle of a frame of defects, all turns counted (rad).
+    fn frame_angle(&self, frame: Frame) -> f64 {
+        let (Solution { excitation, tau, .. }, frame) = (self.solution, frame as usize);
+        self.start.frames[frame] + excitation.frames[frame].since.at(tau)
     }
 
     /// Angle of element `j`, all turns counted (rad).
     fn element_angle(&self, j: usize) -> f64 {
-        self.angles.cage + self.model.element_offset(j) + self.forces.element_lead(j)
+        self.cage_angle() + self.model.element_offset(j) + self.forces.element_lead(j)
     }
 
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
+        let Solution { excitation, tau, state, .. } = self.solution;
         Some(match quantity {
-            Quantity::Position(ring, axis) => self.ring[ring.index()].position[axis],
-            Quantity::Velocity(ring, axis) => self.ring[ring.index()].velocity[axis],
-            Quantity::Acceleration(ring, axis) => self.acceleration[ring.index()][axis],
-            Quantity::Force(ring, axis) => [self.forces.shaft(), self.forces.housing()][ring.index()][axis],
-            Quantity::SensorAcceleration(k) => self.sensors[k],
-            Quantity::Probe(axis) => self.ring[0].position[axis] - self.ring[1].position[axis],
-            Quantity::CageAngle => self.angles.cage + self.forces.cage_lead.angle,
-            Quantity::RingAngle(ring) => self.angles.frames[ring.frame() as usize],
+            Quantity::Position(ring, axis) => self.ring(ring).position[axis],
+            Quantity::Velocity(ring, axis) => self.ring(ring).velocity[axis],
+            Quantity::Acceleration(ring, axis) => self.acceleration(ring)[axis],
+            Quantity::Force(ring, axis) => self.forces.rings[2 * ring.index() + axis],
+            Quantity::SensorAcceleration(k) => self.sensor(k),
+            Quantity::Probe(axis) => {
+                self.ring(RingName::Shaft).position[axis] - self.ring(RingName::Housing).position[axis]
+            }
+            Quantity::CageAngle => self.cage_angle() + self.forces.cage_lead.angle,
+            Quantity::RingAngle(ring) => self.frame_angle(ring.frame()),
             Quantity::ShaftTorque => self.forces.torque_on(Frame::Shaft),
-            Quantity::CageSpeed => self.cage.speed * (1.0 + self.forces.cage_lead.rate),
-            // A sum over all elements, and recorders do not ask for it.
+            Quantity::CageSpeed => excitation.cage.rate_at(tau) * (1.0 + self.forces.cage_lead.rate),
             Quantity::CageTorque => {
-                let acceleration = self.acceleration[RingName::Housing.index()];
-                self.model.cage_torque(self.excitation, self.tau, self.state, acceleration, self.forces)
+                let acceleration = self.acceleration(RingName::Housing);
+                self.model.cage_torque(excitation, tau, state, acceleration, self.forces)
             }
             Quantity::ElementAngle(j) => self.element_angle(j),
-            Quantity::ElementSpinAngle(j) => self.model.spin_angle(j, &self.angles.frames, self.element_angle(j)),
-            Quantity::ElementPath(j) => self.forces.contacts.paths(self.model, self.state)[j],
+            Quantity::ElementSpinAngle(j) => {
+                self.model.spin_angle(j, self.frame_angle(Frame::Spin), self.element_angle(j))
+            }
+            Quantity::ElementPath(j) => self.forces.contacts.paths(self.model, state)[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::Stiffness(..) => return None,

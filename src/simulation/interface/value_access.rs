@@ -26,6 +26,12 @@ pub(in crate::simulation) const STIFFNESS: u8 = 8;
 const REAL: u8 = INPUT | PARAMETER | OUTPUT;
 
 impl Access {
+    /// Whether the variable is of one of these classes.
+    #[inline]
+    pub(in crate::simulation) fn is(&self, classes: u8) -> bool {
+        self.class & classes != 0
+    }
+
     /// The rules of a row of the table.
     pub(in crate::simulation) fn new(variable: &Variable, quantity: Quantity) -> Self {
         let Kind::Real { min, max, .. } = variable.kind else {

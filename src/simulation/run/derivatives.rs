@@ -15,12 +15,14 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
-use super::values::{as_many, out_of_range};
+use super::life::UpToDate;
+use super::running::Present;
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
-use crate::simulation::interface::table::{Causality, Kind, Variable};
-use crate::simulation::interface::{Change, Input, Quantity, RingName, dependencies, value_access};
+use crate::simulation::interface::{
+    Change, Input, Quantity, RingName, as_many, dependencies, out_of_range, value_access,
+};
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
 impl Simulation {
@@ -37,22 +39,26 @@ impl Simulation {
         as_many(references.len(), orders.len())?;
         as_many(references.len(), values.len())?;
         for (&reference, &order) in references.iter().zip(orders) {
-            let variable = self.unknown(reference)?;
+            let variable = self.interface.unknown(reference)?;
             if order != 1 {
                 let name = variable.name.clone();
                 return Err(VariableError::OutputDerivative { name, order }.into());
             }
         }
-        if !self.state.started {
+        if !self.run.state.started {
             return Err(SimulationError::NotInitialized);
         }
         self.refresh()?;
+        let acceleration = self.present.outputs(&self.run).acceleration(RingName::Housing);
         let excitation = self.excitation(true);
-        self.evaluate(&excitation);
+        if excitation != self.present.excitation || self.run.model.solves_grids() {
+            self.present.evaluate(&self.run, excitation);
+            self.invalidate(UpToDate::State);
+        }
         self.along_time(&excitation);
-        self.finish_change(references);
+        self.finish_change(references, acceleration);
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.changed(self.quantities[reference as usize]);
+            *value = self.changed(self.interface.quantities[reference as usize]);
         }
         Ok(())
     }
@@ -87,12 +93,12 @@ impl Simulation {
         as_many(knowns.len(), seed.len())?;
         as_many(unknowns.len(), values.len())?;
         for &reference in unknowns {
-            self.unknown(reference)?;
+            self.interface.unknown(reference)?;
         }
         for (&reference, &value) in knowns.iter().zip(seed) {
             let variable = self.variable(reference)?;
-            let class = value_access::classes(&self.access, &[reference]);
-            if class != Some(value_access::INPUT) && (self.state.started || class != Some(value_access::PARAMETER)) {
+            let class = self.interface.classes(&[reference]).unwrap_or(0);
+            if class != value_access::INPUT && (self.run.state.started || class != value_access::PARAMETER) {
                 return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
             }
             if !value.is_finite() {
@@ -100,27 +106,28 @@ impl Simulation {
             }
         }
         self.refresh()?;
-        self.forces.shortcuts.forget();
+        let acceleration = self.present.outputs(&self.run).acceleration(RingName::Housing);
+        self.present.evaluation.forces.shortcuts.forget();
         self.along_inputs(knowns, seed);
-        if !self.state.started {
-            let excitation = self.excitation(false);
-            let (progress, loads) = (&self.state.progress, self.change.loads);
-            let found = self.model.vary_equilibrium(
-                &excitation,
+        if !self.run.state.started {
+            let (progress, loads) = (&self.run.state.progress, self.change.loads);
+            let Present { excitation, evaluation, .. } = &mut self.present;
+            let found = self.run.model.vary_equilibrium(
+                excitation,
                 &progress.cells,
                 &progress.state,
                 loads,
                 &mut self.change.variation,
-                &mut self.forces.shortcuts,
+                &mut evaluation.forces.shortcuts,
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
-        self.finish_change(unknowns);
+        self.finish_change(unknowns, acceleration);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
-            *value = self.changed(self.quantities[reference as usize]);
+            *value = self.changed(self.interface.quantities[reference as usize]);
         }
         for (&known, &weight) in knowns.iter().zip(seed) {
-            if let Quantity::Parameter(parameter) = self.quantities[known as usize]
+            if let Quantity::Parameter(parameter) = self.interface.quantities[known as usize]
                 && dependencies::balances(parameter)
             {
                 self.along_parameter(unknowns, (known, parameter), weight, values)?;
@@ -145,7 +152,7 @@ impl Simulation {
         as_many(unknowns.len(), seed.len())?;
         as_many(knowns.len(), values.len())?;
         for (&reference, &weight) in unknowns.iter().zip(seed) {
-            let variable = self.unknown(reference)?;
+            let variable = self.interface.unknown(reference)?;
             if !weight.is_finite() {
                 return Err(out_of_range(variable, weight, f64::MIN, f64::MAX).into());
             }
@@ -158,24 +165,15 @@ impl Simulation {
         Ok(())
     }
 
-    /// The variable, if it is a real output.
-    fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
-        let variable = self.variable(reference)?;
-        if !matches!(variable.kind, Kind::Real { .. }) || variable.causality != Causality::Output {
-            return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
-        }
-        Ok(variable)
-    }
-
     /// Starts the change with that of the inputs alone.
     fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {
-            let Some(input) = self.quantities[reference as usize].as_input() else { continue };
+            let Some(input) = self.interface.quantities[reference as usize].as_input() else { continue };
             match input {
                 Input::Speed(ring) => {
-                    let (ratios, i) = (&self.model.ratios, ring.index());
+                    let (ratios, i) = (&self.run.model.ratios, ring.index());
                     change.variation.cage_speed += ratios.cage[i] * value;
                     change.variation.frames[ring.frame() as usize][1] += value;
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
@@ -192,23 +190,23 @@ impl Simulation {
 
     /// The change per second of state and inputs.
     fn along_time(&mut self, excitation: &Excitation) {
-        let change = &mut self.change;
+        let (change, derivative) = (&mut self.change, &self.present.evaluation.derivative);
         change.clear();
-        let layout = &self.model.layout;
+        let layout = &self.run.model.layout;
         let z = layout.element_count;
         let variation = &mut change.variation;
         (variation.cage_angle, variation.cage_speed) = (excitation.cage.0[1], excitation.cage.0[2]);
         variation.frames = excitation.frame_rates(0.0);
         variation.film_speed = excitation.relative_speed.rate_at(0.0);
-        variation.path.copy_from_slice(&self.derivative[..z]);
-        variation.radial_velocity.copy_from_slice(&self.derivative[layout.radial_velocity..][..z]);
-        [variation.shaft, variation.housing] = self.model.ring_rates(excitation, 0.0, &self.derivative);
+        variation.path.copy_from_slice(&derivative[..z]);
+        variation.radial_velocity.copy_from_slice(&derivative[layout.radial_velocity..][..z]);
+        [variation.shaft, variation.housing] = self.run.model.ring_rates(excitation, 0.0, derivative);
         for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
-            *sensor = [self.derivative[i], self.derivative[i + 1]];
+            *sensor = [derivative[i], derivative[i + 1]];
         }
         for (k, i) in layout.sensor_indices().enumerate() {
             change.by_sensor_modes[k] =
-                self.model.sensor_modes.rate(k, self.derivative[i + 1], &self.state.progress.sensor_modes);
+                self.run.model.sensor_modes.rate(k, derivative[i + 1], &self.run.state.progress.sensor_modes);
         }
         // Those of internal rings follow from the forces' change.
         change.accelerations = [&excitation.shaft, &excitation.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
@@ -217,17 +215,19 @@ impl Simulation {
         }
     }
 
-    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
-    fn finish_change(&mut self, unknowns: &[u32]) {
+    /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
+    /// outer ring's `acceleration` is the present one (m/s²).
+    fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
         let excitation = self.excitation(false);
-        let progress = &self.state.progress;
+        let forces_now = &mut self.present.evaluation.forces;
+        let progress = &self.run.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
         let change = &mut self.change;
-        let (Change { variation, forces, .. }, acceleration) = (&mut *change, self.present_acceleration);
-        self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.shortcuts);
+        let Change { variation, forces, .. } = &mut *change;
+        self.run.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut forces_now.shortcuts);
 
         // At the start nothing accelerates, whatever the inputs are.
-        if self.state.started {
+        if self.run.state.started {
             let (variation, forces) = (&change.variation, &change.forces);
             let cage = excitation.cage_at(0.0);
             let (shaft, housing) = (variation.shaft, variation.housing);
@@ -236,7 +236,7 @@ impl Simulation {
             for (k, &[of_x, of_v]) in change.sensors.iter().enumerate() {
                 (x[4 + k], v[4 + k]) = (of_x, of_v);
             }
-            let (supports, [shaft, housing]) = (&self.model.supports, [forces.shaft, forces.housing]);
+            let (supports, [shaft, housing]) = (&self.run.model.supports, [forces.shaft, forces.housing]);
             let contacts = stacked(shaft, housing) + change.loads;
             let mut all = supports.forces(&x, &v);
             let mut rings = all.fixed_rows_mut::<4>(0);
@@ -250,26 +250,27 @@ impl Simulation {
         }
         let by_acceleration = change.forces.torque_by_acceleration;
         change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
-        let wanted = |&reference: &u32| matches!(self.quantities[reference as usize], Quantity::Stiffness(..));
+        let wanted =
+            |&reference: &u32| matches!(self.interface.quantities[reference as usize], Quantity::Stiffness(..));
         if unknowns.iter().any(wanted) {
             // Balances follow inputs at once, states do not.
             let mut settled = Vec::new();
-            let state = if self.model.elements_in_balance() {
+            let state = if self.run.model.elements_in_balance() {
                 settled.extend_from_slice(state);
-                self.forces.settle(&self.model, &mut settled);
+                forces_now.settle(&self.run.model, &mut settled);
                 &settled[..]
             } else {
                 state
             };
             change.stiffness =
-                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.shortcuts);
+                self.run.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut forces_now.shortcuts);
         }
     }
 
     /// Change of the cage's own angle and speed.
     fn cage_change(&self) -> [f64; 2] {
         let variation = &self.change.variation;
-        let Lead { rate, second, .. } = self.model.cage_lead(self.state.cage);
+        let Lead { rate, second, .. } = self.run.model.cage_lead(self.run.state.cage);
         let (share, cage_speed) = (1.0 + rate, self.excitation(false).cage.0[1]);
         let speed = share * variation.cage_speed + second * cage_speed * variation.cage_angle;
         [share * variation.cage_angle, speed]
@@ -277,7 +278,7 @@ impl Simulation {
 
     /// Change of the angle of element `j`.
     fn element_turn(&self, j: usize) -> f64 {
-        (1.0 + self.model.lead(j, self.state.cage).rate) * self.change.variation.cage_angle
+        (1.0 + self.run.model.lead(j, self.run.state.cage).rate) * self.change.variation.cage_angle
     }
 
     /// What the change makes of one output.
@@ -293,10 +294,11 @@ impl Simulation {
             Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
             Quantity::Force(name, axis) => ring(name).2[axis],
             // Before the first step the mean is the force itself.
-            Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
+            Quantity::MeanForce(name, axis) if !self.run.state.started => ring(name).2[axis],
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
             Quantity::SensorAcceleration(k) => {
-                self.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k] + self.change.by_sensor_modes[k]
+                self.run.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k]
+                    + self.change.by_sensor_modes[k]
             }
             Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
             Quantity::CageAngle => self.cage_change()[0],

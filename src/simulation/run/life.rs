@@ -1,21 +1,18 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
-use super::excitation;
+use super::running::{Present, Run};
 use super::state::{Ended, State};
 use crate::contact::map::ContactMaps;
-use crate::dynamics::contacts::{Forces, Shortcuts};
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
-use crate::numerics::plane::Vector;
-use crate::scene::{ContactLaw, Scene, nearest};
+use crate::scene::Scene;
 use crate::simulation::Method;
 use crate::simulation::error::{SimulationError, VariableError};
-use crate::simulation::integration::{Progress, StepCounts, Workspace};
-use crate::simulation::interface::table::{Causality, Dependencies, Variable, rows};
-use crate::simulation::interface::{Access, Change, Inputs, Parameter, Quantity, RingName, dependencies};
+use crate::simulation::integration::{Progress, StepCounts};
+use crate::simulation::interface::table::{Causality, Dependencies, Variable};
+use crate::simulation::interface::{Change, ElementArray, Interface, Parameter, RingName};
 use crate::simulation::recorder::Recorder;
-use crate::simulation::setup::{self, arranged};
-use crate::surface::{Surface, with_roller_profile};
-use std::f64::consts::TAU;
+use crate::simulation::setup::{self, Setup};
 use std::sync::Arc;
 
 /// A bearing that is stepped through time.
@@ -24,40 +21,25 @@ use std::sync::Arc;
 /// [`step`](Self::step). Reading outputs before `initialize` computes the static equilibrium of the values set so far.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    pub(super) scene: Arc<Scene>,
-    pub(super) surfaces: Arc<[Surface]>,
-    /// The contact maps stored with the scene.
-    pub(super) map: Option<Arc<ContactMaps>>,
-    /// Shared by clones, as what follows from the table is.
-    pub(in crate::simulation) table: Arc<[Variable]>,
-    pub(in crate::simulation) quantities: Arc<[Quantity]>,
-    pub(in crate::simulation) access: Arc<[Access]>,
-    pub(super) inputs: Inputs,
-    pub(in crate::simulation) model: Model,
-    pub(super) workspace: Workspace,
-    /// `None` where the scene has no recorder.
-    pub(in crate::simulation) recorder: Option<Recorder>,
-    pub(super) method: Method,
-    pub(in crate::simulation) forces: Forces,
-    pub(in crate::simulation) derivative: Vec<f64>,
-    pub(in crate::simulation) change: Change,
-    /// The outer ring's acceleration when outputs were computed last (m/s²).
-    pub(in crate::simulation) present_acceleration: Vector,
-    pub(in crate::simulation) state: State,
+    pub(super) setup: Setup,
+    pub(super) interface: Interface,
+    pub(super) run: Run,
+    pub(super) present: Present,
+    pub(super) change: Change,
     pub(super) up_to_date: UpToDate,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::simulation) enum UpToDate {
+pub(super) enum UpToDate {
     /// Nothing: parameters have been set since the model was built.
     Nothing,
     /// The model; before the start the equilibrium is still to be found.
     Model,
     /// The state vector.
     State,
-    /// All outputs but the stiffness.
-    Outputs,
+    /// Derivative and forces, from which all outputs follow but the stiffness.
+    Forces,
     /// The stiffness as well.
     Stiffness,
 }
@@ -96,77 +78,23 @@ impl Simulation {
         profiles: impl IntoIterator<Item = &'p str>,
         map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
-        scene.check()?;
-        let profiles: Vec<&str> = profiles.into_iter().collect();
-        let scene = with_roller_profile(&scene, profiles.iter().copied())?;
-        let surfaces = Surface::load_all(&scene, profiles)?;
-        Self::with_surfaces(scene, surfaces.into(), map)
-    }
-
-    fn with_surfaces(
-        scene: Scene,
-        surfaces: Arc<[Surface]>,
-        map: Option<Arc<ContactMaps>>,
-    ) -> Result<Self, SimulationError> {
-        let (table, quantities): (Vec<_>, Vec<_>) = rows(&scene).into_iter().unzip();
-        let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
-        let (reals, integers) = setup::start_values(&table);
-        let map = map.filter(|_| !surfaces.is_empty());
-        if let Some(map) = &map {
-            map.check_fingerprint(setup::map_fingerprint(&scene, &surfaces)?)?;
-        }
-        // What takes long is left to the initialization: the host may change parameters before it.
-        let is_complete = surfaces.is_empty()
-            || match scene.contact.law {
-                ContactLaw::Hertz => true,
-                ContactLaw::Map => map.is_some(),
-                ContactLaw::Love => false,
-            };
-        if !is_complete {
-            // Overlaps are refused now, not when the model is built.
-            arranged(&scene, &surfaces)?;
-        }
-        let model = setup::build_model(&scene, if is_complete { &surfaces } else { &[] }, map.as_ref())?;
-        let recorder = Recorder::of(&scene, &table, &quantities);
-        let progress = new_progress(&model, &recorder);
-        let inputs = Inputs {
-            frames: scene.turns(),
-            ..Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count())
-        };
+        let setup = Setup::new(scene, profiles, map)?;
+        let interface = Interface::of(&setup.scene);
+        let (model, is_complete) = setup.first_model()?;
+        let run = Run::new(model, &setup.scene, &interface);
         Ok(Self {
-            inputs,
-            workspace: Workspace::new(&model),
-            recorder,
-            method: Method::Automatic,
-            forces: Forces::of(&model),
-            derivative: vec![0.0; model.layout.len],
-            change: Change::new(model.element_count),
-            present_acceleration: Vector::zeros(),
-            state: State {
-                time: 0.0,
-                started: false,
-                cage: WholeAngle::new(scene.cage.initial_angle),
-                frames: [scene.shaft_initial_angle, scene.housing_initial_angle, 0.0].map(WholeAngle::new),
-                ended: Ended::default(),
-                progress,
-                reals,
-                integers,
-                input_rates: vec![[None; 2]; inputs.count],
-            },
-            scene: Arc::new(scene),
-            surfaces,
-            map,
-            table: table.into(),
-            access,
-            quantities: quantities.into(),
-            model,
+            present: Present::new(&run.model),
+            change: Change::new(run.model.element_count),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
+            setup,
+            interface,
+            run,
         })
     }
 
     /// The variables, ordered by value reference, which is the index.
     pub fn table(&self) -> &[Variable] {
-        &self.table
+        &self.interface.table
     }
 
     /// Value reference of the variable of this name.
@@ -174,72 +102,73 @@ impl Simulation {
     /// # Errors
     /// The scene has no such variable.
     pub fn reference(&self, name: &str) -> Result<u32, VariableError> {
-        let variable = self.table.iter().find(|variable| variable.name == name);
-        variable.map(|variable| variable.reference).ok_or_else(|| {
-            let near = nearest(self.table.iter().map(|variable| &*variable.name), name).map(str::to_owned);
-            VariableError::UnknownName { name: name.to_owned(), near }
-        })
+        self.interface.reference(name)
     }
 
     /// What each output depends on, in the order of the table.
     pub fn dependencies(&self) -> Vec<Dependencies> {
-        dependencies::of(&self.table, &self.quantities, &self.scene)
+        self.interface.dependencies(&self.setup.scene)
+    }
+
+    /// Variables of every element as arrays, in the order of the table.
+    pub fn arrays(&self) -> Vec<ElementArray> {
+        self.interface.arrays()
     }
 
     /// The scene as it was set up.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.setup.scene
     }
 
     /// Time (s).
     pub fn time(&self) -> f64 {
-        self.state.time
+        self.run.state.time
     }
 
     /// Chooses the integration method, for studies; automatic unless this is called. No part of the state.
     pub fn set_method(&mut self, method: Method) {
-        self.method = method;
+        self.run.method = method;
         // What is stable is to be checked anew: it was for another method.
-        self.state.progress.choice.stable_step = 0.0;
+        self.run.state.progress.choice.stable_step = 0.0;
     }
 
     /// Accepted integration steps so far.
     pub fn step_counts(&self) -> StepCounts {
-        StepCounts { all: self.state.progress.steps, implicit: self.state.progress.implicit_steps }
+        StepCounts { all: self.run.state.progress.steps, implicit: self.run.state.progress.implicit_steps }
     }
 
     /// The recorder, if the scene has one and the host has given it a folder.
     pub fn recorder(&self) -> Option<&Recorder> {
-        self.recorder.as_ref().filter(|recorder| recorder.is_on())
+        self.run.recorder.as_ref().filter(|recorder| recorder.is_on())
     }
 
     /// Gives the recorder a folder; an empty one switches it off. Does nothing where the scene has no recorder.
     pub fn record_into(&mut self, folder: &str) {
-        if let Some(recorder) = &mut self.recorder {
+        if let Some(recorder) = &mut self.run.recorder {
             folder.clone_into(&mut recorder.folder);
         }
     }
 
     /// Drops the rows kept in the recorder, once they have been stored.
     pub fn forget_samples(&mut self) {
-        if let Some(recorder) = &mut self.recorder {
-            recorder.forget(&self.state.progress.due);
+        if let Some(recorder) = &mut self.run.recorder {
+            recorder.forget(&self.run.state.progress.due);
         }
     }
 
     /// The equations of motion and what acts from outside from now on, for studies that integrate them themselves.
     pub fn equations(&self) -> (&Model, Excitation) {
-        (&self.model, self.excitation(true))
+        (&self.run.model, self.excitation(true))
     }
 
     /// The state vector, laid out as [`crate::dynamics::parameters::Layout`] says.
     pub fn state_vector(&self) -> &[f64] {
-        &self.state.progress.state
+        &self.run.state.progress.state
     }
 
     /// Cells of defects in which all contacts are, for studies.
     pub fn cells(&self) -> &Cells {
-        &self.state.progress.cells
+        &self.run.state.progress.cells
     }
 
     /// Solves the static equilibrium at `start` (s) and ends the setting of parameters.
@@ -254,10 +183,10 @@ impl Simulation {
         if !start.is_finite() {
             return Err(SimulationError::StartTime(start));
         }
-        self.state.ended = Ended::default();
+        self.run.state.ended = Ended::default();
         self.find_equilibrium()?;
-        self.state.time = start;
-        self.state.started = true;
+        self.run.state.time = start;
+        self.run.state.started = true;
         self.forget_samples();
         Ok(())
     }
@@ -281,32 +210,33 @@ impl Simulation {
     /// # Ok::<(), brinell::Error>(())
     /// ```
     pub fn save(&self) -> State {
-        self.state.clone()
+        self.run.state.clone()
     }
 
     /// Takes the state over one taken earlier of this same model; allocates nothing.
     pub fn save_into(&self, state: &mut State) {
-        state.copy_from(&self.state);
+        state.copy_from(&self.run.state);
     }
 
     /// Puts a state of this same model back. An error leaves the simulation in need of another state or of a rebuild.
     pub fn restore(&mut self, state: &State) -> Result<(), SimulationError> {
-        let present = &self.state;
-        let parameters_differ = self.table.iter().enumerate().any(|(i, variable)| {
+        let Self { interface, run, .. } = self;
+        let present = &run.state;
+        let parameters_differ = interface.table.iter().enumerate().any(|(i, variable)| {
             variable.causality == Causality::Parameter
                 && (present.reals[i].to_bits() != state.reals[i].to_bits() || present.integers[i] != state.integers[i])
         });
-        self.state.copy_from(state);
-        if let Some(recorder) = &mut self.recorder {
-            recorder.rewind(&self.state.progress.due);
+        self.run.state.copy_from(state);
+        if let Some(recorder) = &mut self.run.recorder {
+            recorder.rewind(&self.run.state.progress.due);
         }
         self.invalidate(if parameters_differ { UpToDate::Nothing } else { UpToDate::Model });
         // Before the start, the equilibrium rebuilds the model when it is asked for.
-        if !self.state.started {
+        if !self.run.state.started {
             return Ok(());
         }
         self.rebuild()?;
-        if self.model.has_cells(&self.state.progress.cells) {
+        if self.run.model.has_cells(&self.run.state.progress.cells) {
             self.up_to_date = UpToDate::State;
             Ok(())
         } else {
@@ -315,80 +245,51 @@ impl Simulation {
     }
 
     /// Notes that what follows after `last` is no longer that of the values set.
-    pub(in crate::simulation) fn invalidate(&mut self, last: UpToDate) {
+    pub(super) fn invalidate(&mut self, last: UpToDate) {
         self.up_to_date = self.up_to_date.min(last);
     }
 
     /// Where every external influence is, during the next step if `stepping`.
-    pub(in crate::simulation) fn excitation(&self, stepping: bool) -> Excitation {
-        excitation::excitation(&self.state, &self.inputs, &self.model.ratios, stepping)
-    }
-
-    /// Refuses oil films that are too thick at an instant.
-    pub(super) fn check_films(&self, excitation: &Excitation, tau: f64) -> Result<(), SimulationError> {
-        let Some(films) = self.model.films_at(excitation, tau) else { return Ok(()) };
-        let (clearance, limit) = (self.model.clearance(Some(&films)), self.scene.bearing.smallest_radial_clearance());
-        if !(clearance >= limit) {
-            return Err(SimulationError::ThickFilms {
-                films_um: films.together() * 1e6,
-                speed_hz: excitation.relative_speed.at(tau) / TAU,
-                clearance_um: clearance * 1e6,
-                limit_um: limit * 1e6,
-            });
-        }
-        Ok(())
+    pub(super) fn excitation(&self, stepping: bool) -> Excitation {
+        self.run.excitation(&self.interface.inputs, stepping)
     }
 
     /// Rebuilds the model if parameters were set, and finds the equilibrium.
     pub(super) fn find_equilibrium(&mut self) -> Result<(), SimulationError> {
         self.rebuild()?;
-        let angle = |parameter| setup::parameter(&self.quantities, &self.state.reals, parameter);
-        let (shaft, housing) = (RingName::Shaft, RingName::Housing);
-        let [cage, shaft, housing] = [
-            angle(Parameter::CageInitialAngle).unwrap_or(self.scene.cage.initial_angle),
-            angle(Parameter::RingInitialAngle(shaft)).unwrap_or(self.scene.shaft_initial_angle),
-            angle(Parameter::RingInitialAngle(housing)).unwrap_or(self.scene.housing_initial_angle),
-        ];
-        self.state.cage = WholeAngle::new(cage);
-        self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
-        let excitation = self.excitation(false);
-        self.check_films(&excitation, 0.0)?;
-        let progress = &mut self.state.progress;
-        *progress = new_progress(&self.model, &self.recorder);
-        progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
-        self.evaluate(&excitation);
-        let progress = &mut self.state.progress;
-        self.forces.note_pushing(&mut progress.pushing);
-        let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
-        progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
+        let Self { setup, interface, run, .. } = self;
+        let angle = |parameter, of_scene| {
+            let set = setup::parameter(&interface.quantities, &run.state.reals, parameter);
+            WholeAngle::new(set.unwrap_or(of_scene))
+        };
+        let scene = &setup.scene;
+        let cage = angle(Parameter::CageInitialAngle, scene.cage.initial_angle);
+        let shaft = angle(Parameter::RingInitialAngle(RingName::Shaft), scene.shaft_initial_angle);
+        let housing = angle(Parameter::RingInitialAngle(RingName::Housing), scene.housing_initial_angle);
+        (run.state.cage, run.state.frames) = (cage, [shaft, housing, WholeAngle::new(0.0)]);
+        let excitation = run.excitation(&interface.inputs, false);
+        setup.check_films(&run.model, &excitation, 0.0)?;
+        run.state.progress = Progress::new(&run.model, run.rows_under_way());
+        let progress = &mut run.state.progress;
+        progress.cells = run.model.equilibrium_with_cells(&excitation, &mut progress.state)?;
+        self.present.evaluate(&self.run, excitation);
+        let (progress, forces) = (&mut self.run.state.progress, &self.present.evaluation.forces);
+        forces.note_pushing(&mut progress.pushing);
+        progress.mean_force = forces.rings;
         self.up_to_date = UpToDate::State;
         Ok(())
-    }
-
-    /// Derivative and forces at the communication point under `excitation`. They must not depend on what was computed
-    /// before, or a restored state would show other roundings.
-    pub(super) fn evaluate(&mut self, excitation: &Excitation) {
-        self.forces.shortcuts.forget();
-        let (progress, derivative) = (&self.state.progress, &mut self.derivative);
-        self.model.derivative(excitation, 0.0, &progress.cells, &progress.state, derivative, &mut self.forces);
     }
 
     fn rebuild(&mut self) -> Result<(), SimulationError> {
         if self.up_to_date > UpToDate::Nothing {
             return Ok(());
         }
-        let scene = setup::with_parameters(&self.scene, &self.quantities, &self.state.reals, &self.state.integers)?;
-        self.model = setup::build_model(&scene, &self.surfaces, self.map.as_ref())?;
-        for forces in [&mut self.forces, &mut self.workspace.forces] {
-            forces.shortcuts = Shortcuts::of(&self.model);
+        let Self { setup, interface, run, present, .. } = self;
+        run.model = setup.model(&interface.quantities, &run.state.reals, &run.state.integers)?;
+        for forces in [&mut present.evaluation.forces, &mut run.workspace.forces] {
+            forces.shortcuts = Shortcuts::of(&run.model);
         }
         self.up_to_date = UpToDate::Model;
         Ok(())
     }
-}
-
-/// A state at rest of this model.
-fn new_progress(model: &Model, recorder: &Option<Recorder>) -> Progress {
-    let under_way = recorder.as_ref().map_or(0, Recorder::under_way);
-    Progress::new(model, under_way)
 }

@@ -40,7 +40,8 @@ impl Simulation {
     /// of the most, beside which it counts for nothing. Positions are known to 1e-19 m, and a force hardly changes if a
     /// free ring follows. Of crowned rollers, whose stiffness has a corner for each lamina, it is 1e-4.
     fn share_of_approaches(&self) -> f64 {
-        let (approaches, law) = (&self.forces.contacts.inner_approach, &self.model.inner.contact.law);
+        let (approaches, law) =
+            (&self.present.evaluation.forces.contacts.inner_approach, &self.run.model.inner.contact.law);
         let pressed = approaches.iter().filter(|approach| **approach > 0.0);
         let [least, most] = pressed.fold([f64::MAX, 0.0], |[least, most], now| [now.min(least), now.max(most)]);
         let share = if matches!(law.elasticity, Elasticity::Crowned(_)) { 1e-4 } else { 1e-2 };
@@ -58,7 +59,7 @@ impl Simulation {
         let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
         start.reals(unknowns, &mut here)?;
-        let at = self.state.reals[known as usize];
+        let at = self.run.state.reals[known as usize];
         let step = difference(parameter, at, nominal, start.share_of_approaches());
         let mut there = here.clone();
         // Half the step and the step, of whose errors the largest terms cancel.
@@ -66,7 +67,7 @@ impl Simulation {
         let halves = sides.map(|(steps, share)| (0.5 * steps, 8.0 / 3.0 * share));
         let wholes = sides.map(|(steps, share)| (steps, -1.0 / 3.0 * share));
         for (steps, share) in halves.into_iter().chain(wholes) {
-            start.state.reals[known as usize] = at + steps * step;
+            start.run.state.reals[known as usize] = at + steps * step;
             start.invalidate(UpToDate::Nothing);
             // A start beside one that exists: where there is none, the limit of what exists has no derivative.
             start.reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;

@@ -1,78 +1,57 @@
-//! Outputs are computed when somebody reads them.
+//! What outputs follow from is computed when somebody reads one, and each output when it is read itself.
+//!
+//! The right-hand side at a communication point is evaluated once: for whoever reads there first, or for the step that
+//! begins there. Under law `love` both evaluate it, since what was solved last is where the next solution begins.
 
 use super::life::{Simulation, UpToDate};
+use super::state::Ended;
 use crate::simulation::error::SimulationError;
-use crate::simulation::interface::{Outputs, Quantity, Solution};
+use crate::simulation::interface::{Outputs, Quantity};
 
 impl Simulation {
-    /// Computes all outputs but the stiffness, unless they are still those of the values set.
-    pub(in crate::simulation) fn refresh(&mut self) -> Result<(), SimulationError> {
-        if self.up_to_date >= UpToDate::Outputs {
+    /// Evaluates the right-hand side at the communication point, unless it is that of the values set.
+    #[inline]
+    pub(super) fn refresh(&mut self) -> Result<(), SimulationError> {
+        if self.up_to_date >= UpToDate::Forces {
             return Ok(());
         }
-        if !self.state.started && self.up_to_date < UpToDate::State {
+        let started = self.run.state.started;
+        if !started && self.up_to_date < UpToDate::State {
             self.find_equilibrium()?;
         }
-        let excitation = self.excitation(false);
-        self.evaluate(&excitation);
-        if !self.state.started {
-            self.rest();
+        self.present.evaluate(&self.run, self.excitation(false));
+        if !started {
+            self.present.rest(&self.run.model.layout);
         }
-        let progress = &self.state.progress;
-        let solution = Solution {
-            excitation: &excitation,
-            tau: 0.0,
-            state: &progress.state,
-            derivative: &self.derivative,
-            sensor_modes: &progress.sensor_modes,
-        };
-        let outputs = Outputs::new(&self.model, solution, &self.forces, self.state.angles());
-        self.present_acceleration = outputs.housing_acceleration();
-        let solves_grids = self.model.solves_grids();
-        for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
-            let value = match *quantity {
-                Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),
-                Quantity::Count(count) => {
-                    let count = progress.count(count, solves_grids);
-                    self.state.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);
-                    None
-                }
-                other => outputs.value(other),
-            };
-            if let Some(value) = value {
-                self.state.reals[i] = value;
-            }
-        }
-        self.up_to_date = UpToDate::Outputs;
+        self.up_to_date = UpToDate::Forces;
         Ok(())
     }
 
-    /// The start is a static equilibrium: what rounding leaves of accelerations is none.
-    fn rest(&mut self) {
-        let layout = &self.model.layout;
-        for start in [layout.shaft, layout.housing].into_iter().flatten() {
-            self.derivative[start + 2..start + 4].fill(0.0);
-        }
-        for i in layout.sensor_indices() {
-            self.derivative[i + 1] = 0.0;
+    /// Computes the tangent stiffness, once [`refresh`](Self::refresh) has been there.
+    pub(super) fn refresh_stiffness(&mut self) {
+        if self.up_to_date < UpToDate::Stiffness {
+            self.present.evaluate_stiffness(&self.run);
+            self.up_to_date = UpToDate::Stiffness;
         }
     }
 
-    /// Computes the tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
-    pub(in crate::simulation) fn refresh_stiffness(&mut self) {
-        if self.up_to_date < UpToDate::Stiffness {
-            let excitation = self.excitation(false);
-            let progress = &self.state.progress;
-            let now = self.model.kinematics(&excitation, 0.0, &progress.state);
-            let cells = &progress.cells;
-            let paths = self.forces.contacts.paths(&self.model, &progress.state);
-            let jacobian = self.model.ring_jacobian(paths, cells, &now, &mut self.forces.shortcuts);
-            for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
-                if let Quantity::Stiffness(row, column) = *quantity {
-                    *value = -jacobian[(row, column)];
-                }
-            }
-            self.up_to_date = UpToDate::Stiffness;
+    /// Whether a step from here begins with what has been evaluated for outputs.
+    pub(super) fn begins_evaluated(&self) -> bool {
+        let state = &self.run.state;
+        self.up_to_date >= UpToDate::Forces
+            && state.ended == Ended::default()
+            && !state.input_rates.as_flattened().iter().any(Option::is_some)
+            && self.present.evaluation.forces.unsolved.is_none()
+            && !self.run.model.solves_grids()
+    }
+
+    /// Value of a real output.
+    #[inline]
+    pub(super) fn output(&self, outputs: &Outputs, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::MeanForce(ring, axis) => self.run.state.progress.mean_force[2 * ring.index() + axis],
+            Quantity::Stiffness(row, column) => self.present.stiffness[(row, column)],
+            other => outputs.value(other).unwrap_or(f64::NAN),
         }
     }
 }

@@ -16,9 +16,9 @@ pub struct State {
     pub(in crate::simulation) frames: [WholeAngle; 3],
     pub(in crate::simulation) ended: Ended,
     pub(in crate::simulation) progress: Progress,
-    /// Values of the table's real variables, by index; outputs are those computed last.
+    /// Values of inputs and real parameters, by index in the table; outputs follow from all the rest.
     pub(in crate::simulation) reals: Vec<f64>,
-    /// Those of its integers and enumerations, by index.
+    /// Those of enumerations, by index.
     pub(in crate::simulation) integers: Vec<i32>,
     /// First and second derivatives of inputs for the next step, where the host has given any, by index.
     pub(in crate::simulation) input_rates: Vec<[Option<f64>; 2]>,

@@ -167,7 +167,7 @@ impl Simulation {
         let possible = |recorder: &Recorder| {
             progress.due.delay.abs() <= 2.0 * recorder.interval() && progress.due.taken < MOST_SAMPLES
         };
-        if !self.recorder.as_ref().is_none_or(possible) {
+        if !self.run.recorder.as_ref().is_none_or(possible) {
             return Some("the next sample is due at no time at which one can be");
         }
         let possible =
@@ -175,7 +175,7 @@ impl Simulation {
         if !possible(&state.cage) || !state.frames.iter().all(possible) {
             return Some("cage, ring or element have an angle that they cannot have");
         }
-        let model = &self.model;
+        let model = &self.run.model;
         let paths = &progress.state[..model.element_count];
         if paths.iter().any(|path| path.abs() > model.element_radius) {
             return Some("an element is outside the bearing");
@@ -199,7 +199,7 @@ impl Simulation {
                 _ => true,
             }
         };
-        if !self.table.iter().all(in_range) {
+        if !self.interface.table.iter().all(in_range) {
             return Some("a parameter is beyond its limits");
         }
         None

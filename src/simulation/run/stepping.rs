@@ -4,25 +4,12 @@
 //! ended there, and shows its outputs. That changes no bit of what follows. Whoever sets an input meanwhile ends the
 //! part of the step before, and begins another with the inputs as they are.
 
-use super::excitation;
 use super::life::{Simulation, UpToDate};
+use super::running::InputValues;
 use super::state::Ended;
 use crate::dynamics::parameters::{Excitation, WholeAngle};
-use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
-use crate::simulation::integration::{Advance, Control, Problem, Stepper};
-use crate::simulation::recorder::Due;
-use crate::simulation::step_error::StepError;
-
-/// Speeds of both rings, and position, velocity and acceleration of each along two axes.
-const MOST_INPUTS: usize = 2 + 2 * 6;
-
-/// Inputs with their derivatives; slots beyond the last input are not used.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct InputValues {
-    values: [f64; MOST_INPUTS],
-    rates: [[Option<f64>; 2]; MOST_INPUTS],
-}
+use crate::simulation::integration::{Advance, Control};
 
 /// A communication step that has begun.
 #[derive(Debug, Clone)]
@@ -66,10 +53,11 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
-        let (control, excitation) = self.prepare(step)?;
-        let advanced = self.stepper(&excitation, control).advance(step);
-        advanced.map_err(|cause| self.failed(cause))?;
-        self.commit(&excitation, step);
+        let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
+        let known = is_evaluated.then_some(&self.present.evaluation);
+        let advanced = self.run.stepper(&excitation, control, known).advance(step);
+        advanced.map_err(|cause| self.run.failed(cause))?;
+        self.run.commit(&self.interface.inputs, &excitation, step);
         Ok(())
     }
 
@@ -103,9 +91,10 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
-        let (control, excitation) = self.prepare(step)?;
-        let begun = self.stepper(&excitation, control).start(step);
-        let advance = begun.map_err(|cause| self.failed(cause))?;
+        let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
+        let known = is_evaluated.then_some(&self.present.evaluation);
+        let begun = self.run.stepper(&excitation, control, known).start(step);
+        let advance = begun.map_err(|cause| self.run.failed(cause))?;
         Ok(StepUnderWay { excitation, control, advance })
     }
 
@@ -115,26 +104,26 @@ impl Simulation {
     /// What cannot be integrated; the communication step is then lost.
     pub fn advance_once(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
         let StepUnderWay { excitation, control, advance } = under_way;
-        let taken = self.stepper(excitation, *control).advance_once(advance);
-        taken.map_err(|cause| self.failed(cause))
+        let taken = self.run.stepper(excitation, *control, None).advance_once(advance);
+        taken.map_err(|cause| self.run.failed(cause))
     }
 
     /// Ends a communication step where it has come to.
     pub fn end_step(&mut self, under_way: StepUnderWay) {
         let StepUnderWay { excitation, control, advance } = under_way;
-        self.stepper(&excitation, control).finish(&advance);
-        self.commit(&excitation, advance.tau);
+        self.run.stepper(&excitation, control, None).finish(&advance);
+        self.run.commit(&self.interface.inputs, &excitation, advance.tau);
     }
 
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
     /// mean forces and counts. Until [`resume`](Self::resume) outputs and their derivatives may be read and inputs be
     /// set, no more.
     pub fn inspect(&mut self, under_way: &StepUnderWay) -> Inspection {
-        let state = &self.state;
+        let state = &self.run.state;
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
-        let inputs = self.input_values();
-        self.commit(&under_way.excitation, under_way.advance.tau);
-        Inspection { time, cage, frames, ended, inputs, arrived: self.input_values() }
+        let inputs = self.run.input_values();
+        self.run.commit(&self.interface.inputs, &under_way.excitation, under_way.advance.tau);
+        Inspection { time, cage, frames, ended, inputs, arrived: self.run.input_values() }
     }
 
     /// Ends an inspection. If inputs have been set to other values than the step had brought them to, they act from
@@ -144,89 +133,46 @@ impl Simulation {
     /// What cannot be integrated from here on.
     pub fn resume(&mut self, under_way: &mut StepUnderWay, inspection: Inspection) -> Result<(), SimulationError> {
         self.up_to_date = UpToDate::State;
-        if self.input_values() != inspection.arrived && !under_way.is_done() {
+        if self.run.input_values() != inspection.arrived && !under_way.is_done() {
             let StepUnderWay { excitation, control, advance } = &*under_way;
-            self.stepper(excitation, *control).finish_part(advance);
+            self.run.stepper(excitation, *control, None).finish_part(advance);
             let mut next = self.begin_step(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;
             return Ok(());
         }
-        let count = self.inputs.count;
-        let state = &mut self.state;
+        let state = &mut self.run.state;
         (state.time, state.cage, state.frames, state.ended) =
             (inspection.time, inspection.cage, inspection.frames, inspection.ended);
-        state.reals[..count].copy_from_slice(&inspection.inputs.values[..count]);
-        state.input_rates.copy_from_slice(&inspection.inputs.rates[..count]);
+        self.run.set_inputs(&inspection.inputs);
         Ok(())
     }
 
     /// Checks a step, and readies for it what goes along with the integration.
     #[inline]
-    fn prepare(&mut self, step: f64) -> Result<(Control, Excitation), SimulationError> {
+    fn prepare(&mut self, step: f64) -> Result<Begun, SimulationError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(SimulationError::CommunicationStep(step));
         }
-        if !self.state.started {
+        if !self.run.state.started {
             return Err(SimulationError::NotInitialized);
         }
+        let is_evaluated = self.begins_evaluated();
+        let excitation = if is_evaluated { self.present.excitation } else { self.excitation(true) };
         self.up_to_date = UpToDate::State;
-        let excitation = self.excitation(true);
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {
-            self.check_films(&excitation, tau)?;
+            self.setup.check_films(&self.run.model, &excitation, tau)?;
         }
-        self.workspace.forces.shortcuts.forget();
-        match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
-            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
-            // What is not sampled cannot be made up for: whoever records on from here begins anew.
-            None => self.state.progress.due = Due::default(),
-        }
-        let method = match self.method {
-            Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
-            method => method,
-        };
-        let control = Control {
-            tolerance: self.inputs.tolerance.map_or(self.scene.tolerance, |i| self.state.reals[i]),
-            max_steps: self.scene.max_steps,
-            method,
-        };
-        Ok((control, excitation))
+        self.run.begin();
+        Ok(Begun { excitation, control: self.run.control(&self.setup.scene, &self.interface.inputs), is_evaluated })
     }
+}
 
-    #[inline]
-    fn stepper<'a>(&'a mut self, excitation: &'a Excitation, control: Control) -> Stepper<'a> {
-        Stepper {
-            problem: Problem { model: &self.model, excitation },
-            control,
-            workspace: &mut self.workspace,
-            progress: &mut self.state.progress,
-            recorder: self.recorder.as_mut().filter(|recorder| recorder.is_on()),
-        }
-    }
-
-    /// Time, angles and inputs move on by `step` (s).
-    #[inline]
-    fn commit(&mut self, excitation: &Excitation, step: f64) {
-        self.state.cage = self.state.cage.advanced(excitation.cage.at(step));
-        if self.inputs.frames {
-            for (angle, turning) in self.state.frames.iter_mut().zip(&excitation.frames) {
-                *angle = angle.advanced(turning.since.at(step));
-            }
-        }
-        self.state.time += step;
-        excitation::follow(&mut self.state, &self.inputs, &self.model.ratios, excitation, step);
-    }
-
-    fn input_values(&self) -> InputValues {
-        let count = self.inputs.count;
-        let mut inputs = InputValues { values: [0.0; MOST_INPUTS], rates: [[None; 2]; MOST_INPUTS] };
-        inputs.values[..count].copy_from_slice(&self.state.reals[..count]);
-        inputs.rates[..count].copy_from_slice(&self.state.input_rates);
-        inputs
-    }
-
-    fn failed(&self, cause: StepError) -> SimulationError {
-        SimulationError::Step { time: self.state.time, cause }
-    }
+/// What a communication step begins with.
+struct Begun {
+    excitation: Excitation,
+    control: Control,
+    /// Whether the right-hand side is that of the present.
+    is_evaluated: bool,
 }

@@ -9,5 +9,5 @@ pub use arrangement::largest_force;
 pub use maps::{NeededMap, build_map, map_fingerprint, map_specification, needed_maps, stored_map};
 pub use model::build_model;
 
-pub(in crate::simulation) use arrangement::arranged;
-pub(in crate::simulation) use parameters::{parameter, start_values, with_parameters};
+pub(in crate::simulation) use model::Setup;
+pub(in crate::simulation) use parameters::{parameter, start_values};

@@ -3,19 +3,97 @@
 use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
-use super::maps::{map_specification, prepared};
+use super::maps::{map_fingerprint, map_specification, prepared};
+use super::parameters::with_parameters;
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
-use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Frame, Model, WholeAngle};
+use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Excitation, Frame, Model, WholeAngle};
 use crate::scene::{ContactLaw, DefectOn, Scene};
 use crate::simulation::SimulationError;
+use crate::simulation::interface::Quantity;
 use crate::surface::roller_profile::unread;
-use crate::surface::{Surface, SurfaceError};
-use std::f64::consts::PI;
+use crate::surface::{Surface, SurfaceError, with_roller_profile};
+use std::f64::consts::{PI, TAU};
+
+/// What a simulation is set up from. It does not change.
+#[derive(Debug, Clone)]
+pub(in crate::simulation) struct Setup {
+    pub(in crate::simulation) scene: Arc<Scene>,
+    surfaces: Arc<[Surface]>,
+    /// The contact maps stored with the scene.
+    map: Option<Arc<ContactMaps>>,
+}
+
+impl Setup {
+    /// Reads the `profiles` of the scene's defects and crowns; the stored maps are to be those of this scene.
+    pub(in crate::simulation) fn new<'p>(
+        scene: Scene,
+        profiles: impl IntoIterator<Item = &'p str>,
+        map: Option<Arc<ContactMaps>>,
+    ) -> Result<Self, SimulationError> {
+        scene.check()?;
+        let profiles: Vec<&str> = profiles.into_iter().collect();
+        let scene = with_roller_profile(&scene, profiles.iter().copied())?;
+        let surfaces = Surface::load_all(&scene, profiles)?;
+        let map = map.filter(|_| !surfaces.is_empty());
+        if let Some(map) = &map {
+            map.check_fingerprint(map_fingerprint(&scene, &surfaces)?)?;
+        }
+        Ok(Self { scene: Arc::new(scene), surfaces: surfaces.into(), map })
+    }
+
+    /// The scene's model, and whether it is complete: what takes long is left to the initialization, as the host may
+    /// change parameters before it.
+    pub(in crate::simulation) fn first_model(&self) -> Result<(Model, bool), SimulationError> {
+        let Self { scene, surfaces, map } = self;
+        let is_complete = surfaces.is_empty()
+            || match scene.contact.law {
+                ContactLaw::Hertz => true,
+                ContactLaw::Map => map.is_some(),
+                ContactLaw::Love => false,
+            };
+        if !is_complete {
+            // Overlaps are refused now, not when the model is built.
+            arranged(scene, surfaces)?;
+        }
+        Ok((build_model(scene, if is_complete { surfaces } else { &[] }, map.as_ref())?, is_complete))
+    }
+
+    /// The model with the parameters that a host has set.
+    pub(in crate::simulation) fn model(
+        &self,
+        quantities: &[Quantity],
+        reals: &[f64],
+        integers: &[i32],
+    ) -> Result<Model, SimulationError> {
+        let scene = with_parameters(&self.scene, quantities, reals, integers)?;
+        build_model(&scene, &self.surfaces, self.map.as_ref())
+    }
+
+    /// Refuses oil films that are too thick at an instant.
+    pub(in crate::simulation) fn check_films(
+        &self,
+        model: &Model,
+        excitation: &Excitation,
+        tau: f64,
+    ) -> Result<(), SimulationError> {
+        let Some(films) = model.films_at(excitation, tau) else { return Ok(()) };
+        let (clearance, limit) = (model.clearance(Some(&films)), self.scene.bearing.smallest_radial_clearance());
+        if !(clearance >= limit) {
+            return Err(SimulationError::ThickFilms {
+                films_um: films.together() * 1e6,
+                speed_hz: excitation.relative_speed.at(tau) / TAU,
+                clearance_um: clearance * 1e6,
+                limit_um: limit * 1e6,
+            });
+        }
+        Ok(())
+    }
+}
 
 /// The surface of a spot in contact with one raceway; a map that is not among those stored is computed, once.
 fn near(

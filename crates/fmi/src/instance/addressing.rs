@@ -6,7 +6,7 @@
 use super::failure::Failure;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::Causality;
-use brinell::simulation::run::{ElementArray, of_all_elements};
+use brinell::simulation::interface::{ElementArray, of_all_elements};
 
 /// What a reference stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

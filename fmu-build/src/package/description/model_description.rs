@@ -16,7 +16,7 @@ use anyhow::Result;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::Category;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variability, Variable};
-use brinell::simulation::run::{ElementArray, of_all_elements};
+use brinell::simulation::interface::{ElementArray, of_all_elements};
 use minijinja::{Value, context};
 
 use super::units;

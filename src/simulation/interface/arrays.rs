@@ -3,8 +3,8 @@
 //!
 //! What only a defective element has, its spin angle, is no array.
 
-use crate::simulation::Simulation;
-use crate::simulation::interface::Quantity as Q;
+use super::quantity::Quantity as Q;
+use super::variables::Interface;
 use crate::simulation::interface::table::Variable;
 
 /// The rows of the variable table that are one array.
@@ -14,21 +14,20 @@ pub struct ElementArray {
     pub rows: Vec<u32>,
 }
 
-impl Simulation {
+impl Interface {
     /// The arrays of this scene, in the order of the table.
-    pub fn arrays(&self) -> Vec<ElementArray> {
+    pub(in crate::simulation) fn arrays(&self) -> Vec<ElementArray> {
+        let rows = || self.table.iter().zip(self.quantities.iter());
+        // All rows that are what `first` is of element 1.
+        let array_of = |first: &Q| {
+            let kind = std::mem::discriminant(first);
+            let rows = rows().filter(|(_, quantity)| std::mem::discriminant(*quantity) == kind);
+            ElementArray { rows: rows.map(|(row, _)| row.reference).collect() }
+        };
         let first = |wanted: &Q| {
             matches!(wanted, Q::ElementAngle(0) | Q::ElementPath(0) | Q::ElementInnerForce(0) | Q::ElementOuterForce(0))
         };
-        self.quantities.iter().filter(|quantity| first(quantity)).map(|&quantity| self.array_of(quantity)).collect()
-    }
-
-    /// All rows that are what `first` is of element 1.
-    fn array_of(&self, first: Q) -> ElementArray {
-        let kind = std::mem::discriminant(&first);
-        let rows = self.table.iter().zip(self.quantities.iter());
-        let rows = rows.filter(|(_, quantity)| std::mem::discriminant(*quantity) == kind).map(|(row, _)| row.reference);
-        ElementArray { rows: rows.collect() }
+        rows().filter(|(_, quantity)| first(quantity)).map(|(_, quantity)| array_of(quantity)).collect()
     }
 }
 

@@ -1,0 +1,201 @@
+//! What runs, and what has been evaluated of it at the communication point.
+
+use super::excitation;
+use super::state::{Ended, State};
+use crate::dynamics::parameters::{Excitation, Layout, Model, WholeAngle};
+use crate::numerics::plane::Matrix;
+use crate::scene::Scene;
+use crate::simulation::Method;
+use crate::simulation::error::SimulationError;
+use crate::simulation::integration::{Control, Evaluation, Problem, Progress, Stepper, Workspace};
+use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution};
+use crate::simulation::recorder::{Due, Recorder};
+use crate::simulation::setup;
+use crate::simulation::step_error::StepError;
+
+/// Speeds of both rings, and position, velocity and acceleration of each along two axes.
+const MOST_INPUTS: usize = 2 + 2 * 6;
+
+/// Inputs with their derivatives; slots beyond the last input are not used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct InputValues {
+    values: [f64; MOST_INPUTS],
+    rates: [[Option<f64>; 2]; MOST_INPUTS],
+}
+
+/// What runs: the model, its state, and what steps it.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    pub(super) model: Model,
+    pub(super) workspace: Workspace,
+    /// `None` where the scene has no recorder.
+    pub(super) recorder: Option<Recorder>,
+    pub(super) method: Method,
+    pub(super) state: State,
+}
+
+impl Run {
+    /// A model at rest.
+    pub(super) fn new(model: Model, scene: &Scene, interface: &Interface) -> Self {
+        let recorder = Recorder::of(scene, &interface.table, &interface.quantities);
+        let (reals, integers) = setup::start_values(&interface.table);
+        let state = State {
+            time: 0.0,
+            started: false,
+            cage: WholeAngle::new(scene.cage.initial_angle),
+            frames: [scene.shaft_initial_angle, scene.housing_initial_angle, 0.0].map(WholeAngle::new),
+            ended: Ended::default(),
+            progress: Progress::new(&model, recorder.as_ref().map_or(0, Recorder::under_way)),
+            reals,
+            integers,
+            input_rates: vec![[None; 2]; interface.inputs.count],
+        };
+        Self { workspace: Workspace::new(&model), model, recorder, method: Method::Automatic, state }
+    }
+
+    /// Length of the recorder's rows under way.
+    pub(super) fn rows_under_way(&self) -> usize {
+        self.recorder.as_ref().map_or(0, Recorder::under_way)
+    }
+
+    /// Where every external influence is, during the next step if `stepping`.
+    pub(super) fn excitation(&self, inputs: &Inputs, stepping: bool) -> Excitation {
+        excitation::excitation(&self.state, inputs, &self.model.ratios, stepping)
+    }
+
+    /// What the solver has counted.
+    pub(super) fn count(&self, count: Count) -> u64 {
+        self.state.progress.count(count, self.model.solves_grids())
+    }
+
+    /// Readies what goes along with a communication step.
+    #[inline]
+    pub(super) fn begin(&mut self) {
+        self.workspace.forces.shortcuts.forget();
+        match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
+            Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
+            // What is not sampled cannot be made up for: whoever records on from here begins anew.
+            None => self.state.progress.due = Due::default(),
+        }
+    }
+
+    #[inline]
+    pub(super) fn control(&self, scene: &Scene, inputs: &Inputs) -> Control {
+        let method = match self.method {
+            Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
+            method => method,
+        };
+        let tolerance = inputs.tolerance.map_or(scene.tolerance, |i| self.state.reals[i]);
+        Control { tolerance, max_steps: scene.max_steps, method }
+    }
+
+    /// What steps, where a step may begin with a right-hand side that is `known`.
+    #[inline]
+    pub(super) fn stepper<'a>(
+        &'a mut self,
+        excitation: &'a Excitation,
+        control: Control,
+        known: Option<&'a Evaluation>,
+    ) -> Stepper<'a> {
+        Stepper {
+            problem: Problem { model: &self.model, excitation },
+            control,
+            known,
+            workspace: &mut self.workspace,
+            progress: &mut self.state.progress,
+            recorder: self.recorder.as_mut().filter(|recorder| recorder.is_on()),
+        }
+    }
+
+    /// Time, angles and inputs move on by `step` (s).
+    #[inline]
+    pub(super) fn commit(&mut self, inputs: &Inputs, excitation: &Excitation, step: f64) {
+        self.state.cage = self.state.cage.advanced(excitation.cage.at(step));
+        if inputs.frames {
+            for (angle, turning) in self.state.frames.iter_mut().zip(&excitation.frames) {
+                *angle = angle.advanced(turning.since.at(step));
+            }
+        }
+        self.state.time += step;
+        excitation::follow(&mut self.state, inputs, &self.model.ratios, excitation, step);
+    }
+
+    /// The inputs as they are.
+    pub(super) fn input_values(&self) -> InputValues {
+        let count = self.state.input_rates.len();
+        let mut inputs = InputValues { values: [0.0; MOST_INPUTS], rates: [[None; 2]; MOST_INPUTS] };
+        inputs.values[..count].copy_from_slice(&self.state.reals[..count]);
+        inputs.rates[..count].copy_from_slice(&self.state.input_rates);
+        inputs
+    }
+
+    /// Puts inputs back.
+    pub(super) fn set_inputs(&mut self, inputs: &InputValues) {
+        let count = self.state.input_rates.len();
+        self.state.reals[..count].copy_from_slice(&inputs.values[..count]);
+        self.state.input_rates.copy_from_slice(&inputs.rates[..count]);
+    }
+
+    pub(super) fn failed(&self, cause: StepError) -> SimulationError {
+        SimulationError::Step { time: self.state.time, cause }
+    }
+}
+
+/// The bearing at the communication point.
+#[derive(Debug, Clone)]
+pub(super) struct Present {
+    /// What acts from outside.
+    pub(super) excitation: Excitation,
+    /// The right-hand side under it.
+    pub(super) evaluation: Evaluation,
+    /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
+    pub(super) stiffness: Matrix,
+}
+
+impl Present {
+    pub(super) fn new(model: &Model) -> Self {
+        Self { excitation: Excitation::default(), evaluation: Evaluation::new(model), stiffness: Matrix::zeros() }
+    }
+
+    /// Evaluates the right-hand side under `excitation`. It must not depend on what was computed before, or a restored
+    /// state would show other roundings.
+    pub(super) fn evaluate(&mut self, Run { model, state, .. }: &Run, excitation: Excitation) {
+        let (Evaluation { derivative, forces }, progress) = (&mut self.evaluation, &state.progress);
+        forces.shortcuts.forget();
+        (forces.defect_lookups, forces.unsolved) = (0, None);
+        model.derivative(&excitation, 0.0, &progress.cells, &progress.state, derivative, forces);
+        self.excitation = excitation;
+    }
+
+    /// The start is a static equilibrium: what rounding leaves of accelerations is none.
+    pub(super) fn rest(&mut self, layout: &Layout) {
+        let derivative = &mut self.evaluation.derivative;
+        for start in [layout.shaft, layout.housing].into_iter().flatten() {
+            derivative[start + 2..start + 4].fill(0.0);
+        }
+        for i in layout.sensor_indices() {
+            derivative[i + 1] = 0.0;
+        }
+    }
+
+    pub(super) fn evaluate_stiffness(&mut self, Run { model, state, .. }: &Run) {
+        let (progress, forces) = (&state.progress, &mut self.evaluation.forces);
+        let now = model.kinematics(&self.excitation, 0.0, &progress.state);
+        let paths = forces.contacts.paths(model, &progress.state);
+        let jacobian = model.ring_jacobian(paths, &progress.cells, &now, &mut forces.shortcuts);
+        self.stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
+    }
+
+    /// The outputs.
+    pub(super) fn outputs<'a>(&'a self, Run { model, state, .. }: &'a Run) -> Outputs<'a> {
+        let (Evaluation { derivative, forces }, progress) = (&self.evaluation, &state.progress);
+        let solution = Solution {
+            excitation: &self.excitation,
+            tau: 0.0,
+            state: &progress.state,
+            derivative,
+            sensor_modes: &progress.sensor_modes,
+        };
+        Outputs::new(model, solution, forces, state.angles())
+    }
+}
