@@ -6,6 +6,7 @@ mod log_category;
 mod output_change;
 mod outputs;
 mod quantity;
+mod suggested_step;
 pub mod table;
 pub(in crate::simulation) mod value_access;
 
@@ -16,4 +17,5 @@ pub use quantity::{Count, Parameter, Quantity, RingName};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
+pub(in crate::simulation) use suggested_step::suggested_step;
 pub(in crate::simulation) use value_access::Access;

@@ -1,7 +1,7 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
 use super::excitation;
-use super::state::{Ended, State};
+use super::state::{Ended, FirstInputs, History, State};
 use crate::contact::map::ContactMaps;
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
@@ -45,6 +45,16 @@ pub struct Simulation {
     pub(in crate::simulation) present_acceleration: Vector,
     pub(in crate::simulation) state: State,
     pub(super) up_to_date: UpToDate,
+    pub(super) ahead: Ahead,
+}
+
+/// A look at the next step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ahead {
+    /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
+    pub(super) force: Option<[f64; 4]>,
+    /// Where the state is kept meanwhile.
+    pub(super) state: Option<Box<State>>,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
@@ -152,6 +162,8 @@ impl Simulation {
                 reals,
                 integers,
                 input_rates: vec![[None; 2]; inputs.count],
+                history: History::none(inputs.count),
+                first: FirstInputs::none(inputs.count),
             },
             scene: Arc::new(scene),
             surfaces,
@@ -160,6 +172,7 @@ impl Simulation {
             access,
             quantities: quantities.into(),
             model,
+            ahead: Ahead::default(),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
         })
     }
@@ -296,7 +309,13 @@ impl Simulation {
             variable.causality == Causality::Parameter
                 && (present.reals[i].to_bits() != state.reals[i].to_bits() || present.integers[i] != state.integers[i])
         });
-        self.state.copy_from(state);
+        // What a step began with the first time is no part of the state before that time.
+        if self.state.first.are_of(state.time) {
+            self.state.copy_all_but_first(state);
+        } else {
+            self.state.copy_from(state);
+        }
+        self.ahead.force = None;
         if let Some(recorder) = &mut self.recorder {
             recorder.rewind(&self.state.progress.due);
         }
@@ -353,6 +372,9 @@ impl Simulation {
         self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
         let excitation = self.excitation(false);
         self.check_films(&excitation, 0.0)?;
+        let count = self.inputs.count;
+        (self.state.history, self.state.first) = (History::none(count), FirstInputs::none(count));
+        self.ahead.force = None;
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;

@@ -4,7 +4,7 @@ mod arrays;
 mod derivatives;
 mod excitation;
 mod life;
-mod parameter_derivatives;
+mod look_ahead;
 mod refresh;
 mod samples;
 mod state;

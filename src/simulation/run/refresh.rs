@@ -2,7 +2,7 @@
 
 use super::life::{Simulation, UpToDate};
 use crate::simulation::error::SimulationError;
-use crate::simulation::interface::{Outputs, Quantity, Solution};
+use crate::simulation::interface::{Outputs, Quantity, Solution, suggested_step};
 
 impl Simulation {
     /// Computes all outputs but the stiffness, unless they are still those of the values set.
@@ -32,6 +32,10 @@ impl Simulation {
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
             let value = match *quantity {
                 Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),
+                Quantity::NextMeanForce(ring, axis) => {
+                    let force = self.ahead.force.as_ref().unwrap_or(&progress.mean_force);
+                    Some(force[2 * ring.index() + axis])
+                }
                 Quantity::Count(count) => {
                     let count = progress.count(count, solves_grids);
                     self.state.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);
@@ -68,8 +72,10 @@ impl Simulation {
             let paths = self.forces.contacts.paths(&self.model, &progress.state);
             let jacobian = self.model.ring_jacobian(paths, cells, &now, &mut self.forces.shortcuts);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
-                if let Quantity::Stiffness(row, column) = *quantity {
-                    *value = -jacobian[(row, column)];
+                match *quantity {
+                    Quantity::Stiffness(row, column) => *value = -jacobian[(row, column)],
+                    Quantity::SuggestedStep => *value = suggested_step(&self.model, &jacobian),
+                    _ => {}
                 }
             }
             self.up_to_date = UpToDate::Stiffness;

@@ -86,6 +86,9 @@ impl Simulation {
         let Some(classes) = value_access::classes(&self.access, references) else {
             return Err(self.not_real(references).into());
         };
+        if classes & value_access::AHEAD != 0 {
+            self.look_ahead()?;
+        }
         if classes & value_access::OUTPUT != 0 {
             self.refresh()?;
         }

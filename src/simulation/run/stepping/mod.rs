@@ -4,6 +4,8 @@
 //! ended there, and shows its outputs. That changes no bit of what follows. Whoever sets an input meanwhile ends the
 //! part of the step before, and begins another with the inputs as they are.
 
+mod host_inputs;
+
 use super::excitation;
 use super::life::{Simulation, UpToDate};
 use super::state::Ended;
@@ -66,11 +68,20 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
+        self.take_inputs(step);
+        let excitation = self.advance(step)?;
+        self.note_step(&excitation, step);
+        Ok(())
+    }
+
+    /// Advances by `step` (s) under the inputs as they are. Gives how they went on.
+    #[inline]
+    pub(super) fn advance(&mut self, step: f64) -> Result<Excitation, SimulationError> {
         let (control, excitation) = self.prepare(step)?;
         let advanced = self.stepper(&excitation, control).advance(step);
         advanced.map_err(|cause| self.failed(cause))?;
         self.commit(&excitation, step);
-        Ok(())
+        Ok(excitation)
     }
 
     /// Begins a communication step of `step` (s).
@@ -103,6 +114,12 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
+        self.take_inputs(step);
+        self.begin_part(step)
+    }
+
+    /// Begins a step, or goes on with one under other inputs.
+    fn begin_part(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
         let (control, excitation) = self.prepare(step)?;
         let begun = self.stepper(&excitation, control).start(step);
         let advance = begun.map_err(|cause| self.failed(cause))?;
@@ -124,6 +141,7 @@ impl Simulation {
         let StepUnderWay { excitation, control, advance } = under_way;
         self.stepper(&excitation, control).finish(&advance);
         self.commit(&excitation, advance.tau);
+        self.note_step(&excitation, advance.tau);
     }
 
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
@@ -133,6 +151,8 @@ impl Simulation {
         let state = &self.state;
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
         let inputs = self.input_values();
+        // Nobody looks ahead from within a step.
+        self.ahead.force = Some(self.state.progress.mean_force);
         self.commit(&under_way.excitation, under_way.advance.tau);
         Inspection { time, cage, frames, ended, inputs, arrived: self.input_values() }
     }
@@ -147,7 +167,7 @@ impl Simulation {
         if self.input_values() != inspection.arrived && !under_way.is_done() {
             let StepUnderWay { excitation, control, advance } = &*under_way;
             self.stepper(excitation, *control).finish_part(advance);
-            let mut next = self.begin_step(advance.end - advance.tau)?;
+            let mut next = self.begin_part(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;
             return Ok(());
@@ -171,6 +191,7 @@ impl Simulation {
             return Err(SimulationError::NotInitialized);
         }
         self.up_to_date = UpToDate::State;
+        self.ahead.force = None;
         let excitation = self.excitation(true);
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {

@@ -15,6 +15,8 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
+mod by_parameter;
+
 use super::values::{as_many, out_of_range};
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
 use crate::dynamics::quasi_static::stacked;
@@ -293,7 +295,9 @@ impl Simulation {
             Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
             Quantity::Force(name, axis) => ring(name).2[axis],
             // Before the first step the mean is the force itself.
-            Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
+            Quantity::MeanForce(name, axis) | Quantity::NextMeanForce(name, axis) if !self.state.started => {
+                ring(name).2[axis]
+            }
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
             Quantity::SensorAcceleration(k) => {
                 self.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k] + self.change.by_sensor_modes[k]
@@ -310,7 +314,8 @@ impl Simulation {
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
-            Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::SuggestedStep => 0.0,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
         }
     }
