@@ -2,7 +2,8 @@
 
 use super::{
     Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, ElementInertia,
-    Experiment, Film, Motion, Recorder, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError, Sensor,
+    Experiment, Film, Motion, Recorder, RepeatedInputs, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError,
+    Sensor,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -57,6 +58,7 @@ impl Scene {
             tolerance: 1e-5,
             max_steps: 10_000_000,
             recorder: None,
+            repeated_inputs: RepeatedInputs::Start,
             experiment: Experiment { stop: 0.5, step: 1e-4 },
         };
         SceneBuilder { scene, law: None }

@@ -24,7 +24,7 @@ pub use contact::{Contact, ContactEdge, ContactLaw, Damping, Film};
 pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
 pub use error::{BearingError, DefectError, LONGEST_NAME, SceneError};
 pub use messages::{Bound, Limits, Plain, nearest};
-pub use ring::{Motion, Ring};
+pub use ring::{Motion, RepeatedInputs, Ring};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
 
 use serde::{Deserialize, Serialize};
@@ -71,6 +71,8 @@ pub struct Scene {
     pub max_steps: u64,
     /// The recorder inside the step; `None` for none.
     pub recorder: Option<Recorder>,
+    /// What the inputs of hosted rings are when a step is repeated.
+    pub repeated_inputs: RepeatedInputs,
     /// Default run.
     pub experiment: Experiment,
 }

@@ -16,6 +16,41 @@ pub enum Motion {
     Fixed,
 }
 
+/// What a host's inputs are when it repeats a step from the same communication point.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RepeatedInputs {
+    /// Values at the step's start, as in every other step.
+    #[default]
+    Start,
+    /// Values at the step's end; those at its start are what the host gave when it first took the step.
+    End,
+}
+
+impl RepeatedInputs {
+    /// Both. The variable `host.repeated_inputs` numbers them from 1 in this order.
+    pub const ALL: [Self; 2] = [Self::Start, Self::End];
+
+    /// Its number in the variable.
+    pub fn number(self) -> i32 {
+        if self == Self::Start { 1 } else { 2 }
+    }
+
+    /// That of a number, if it is one's.
+    pub fn numbered(number: i32) -> Option<Self> {
+        Self::ALL.into_iter().find(|of| of.number() == number)
+    }
+
+    /// Its name in a scene file, and what it is.
+    pub const fn described(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Start => ("start", "Values at the start of the step, as in every other step"),
+            Self::End => ("end", "Values at the end of the step; the start keeps those of the first time"),
+        }
+    }
+}
+
 /// A ring and its support.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ring {

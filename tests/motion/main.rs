@@ -5,6 +5,7 @@ mod cage;
 mod clearance;
 #[path = "../support/counting.rs"]
 mod counting;
+mod coupling;
 mod defect_lines;
 mod defects_anywhere;
 mod derivatives;

@@ -77,11 +77,12 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         Q::Position(..)
         | Q::Velocity(..)
         | Q::MeanForce(..)
+        | Q::NextMeanForce(..)
         | Q::CageAngle
         | Q::ElementAngle(_)
         | Q::RingAngle(_)
         | Q::ElementSpinAngle(_) => false,
-        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::Parameter(_) => false,
+        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::SuggestedStep | Q::Parameter(_) => false,
     }
 }
 
@@ -100,6 +101,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         Q::Position(..)
         | Q::Force(..)
         | Q::MeanForce(..)
+        | Q::NextMeanForce(..)
         | Q::Stiffness(..)
         | Q::Probe(_)
         | Q::CageTorque
@@ -110,6 +112,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         | Q::Speed(_)
         | Q::Load(..)
         | Q::Count(_)
+        | Q::SuggestedStep
         | Q::Parameter(_) => match (known, known.as_input()) {
             (Q::Parameter(parameter), _) => balances(parameter),
             // Only the cage's torque knows that a prescribed outer ring accelerates.
@@ -125,7 +128,8 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
 pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
     match parameter {
         // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
-        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,
+        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RepeatedInputs => false,
+        Parameter::RingMass(_) | Parameter::RingDamping(_) => false,
         Parameter::RadialClearance
         | Parameter::ContactDamping
         | Parameter::ContactLaw

@@ -17,6 +17,8 @@ pub(in crate::simulation) struct Inputs {
     /// Speed of the inner ring, and of an outer ring that turns.
     pub(in crate::simulation) speeds: [Option<usize>; 2],
     pub(in crate::simulation) tolerance: Option<usize>,
+    /// The parameter that says what inputs of a repeated step are.
+    pub(in crate::simulation) repeated: Option<usize>,
     /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, or an output.
     pub(in crate::simulation) frames: bool,
     /// Inputs are the first so many rows.
@@ -30,6 +32,7 @@ impl Inputs {
     pub(in crate::simulation) fn new(quantities: &[Quantity], input_count: usize) -> Self {
         let mut inputs = Self {
             tolerance: quantities.iter().position(|&q| q == Quantity::Parameter(Parameter::Tolerance)),
+            repeated: quantities.iter().position(|&q| q == Quantity::Parameter(Parameter::RepeatedInputs)),
             count: input_count,
             ..Self::default()
         };
@@ -45,6 +48,11 @@ impl Inputs {
             *slot = Some(index);
         }
         inputs
+    }
+
+    /// Those of both rings, the inner one first.
+    pub(in crate::simulation) fn rings(&self) -> [RingInputs; 2] {
+        [self.shaft, self.housing]
     }
 
     fn ring(&mut self, ring: RingName) -> &mut RingInputs {

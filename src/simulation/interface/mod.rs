@@ -7,6 +7,7 @@ mod log_category;
 mod output_change;
 mod outputs;
 mod quantity;
+mod suggested_step;
 pub mod table;
 pub(in crate::simulation) mod value_access;
 mod variables;
@@ -19,6 +20,7 @@ pub use quantity::{Count, Parameter, Quantity, RingName};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
+pub(in crate::simulation) use suggested_step::suggested_step;
 pub(in crate::simulation) use variables::{
     COMPUTED, FIXED, Interface, as_many, not_settable, out_of_range, wrong_type,
 };

@@ -110,7 +110,8 @@ impl<'a> Outputs<'a> {
             Quantity::ElementPath(j) => self.forces.contacts.paths(self.model, state)[j],
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
-            Quantity::MeanForce(..) | Quantity::Stiffness(..) => return None,
+            Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Stiffness(..) => return None,
+            Quantity::SuggestedStep => return None,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::Count(_) | Quantity::Parameter(_) => return None,
         })
     }

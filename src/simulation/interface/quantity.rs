@@ -42,6 +42,8 @@ pub enum Quantity {
     Acceleration(RingName, usize),
     Force(RingName, usize),
     MeanForce(RingName, usize),
+    /// The force to hold over the next step.
+    NextMeanForce(RingName, usize),
     Stiffness(usize, usize),
     SensorAcceleration(usize),
     /// Displacement of the inner ring against the outer along an axis.
@@ -55,6 +57,7 @@ pub enum Quantity {
     ElementOuterForce(usize),
     ElementSpinAngle(usize),
     Count(Count),
+    SuggestedStep,
     Parameter(Parameter),
 }
 
@@ -95,6 +98,7 @@ pub enum Parameter {
     RingStiffness(RingName),
     Tolerance,
     RecorderFolder,
+    RepeatedInputs,
 }
 
 impl Quantity {
@@ -110,6 +114,8 @@ impl Quantity {
             | Self::ShaftTorque
             | Self::Force(..)
             | Self::MeanForce(..)
+            | Self::NextMeanForce(..)
+            | Self::SuggestedStep
             | Self::Stiffness(..)
             | Self::SensorAcceleration(_)
             | Self::Probe(_)

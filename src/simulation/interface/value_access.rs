@@ -22,6 +22,8 @@ pub(in crate::simulation) const PARAMETER: u8 = 2;
 pub(in crate::simulation) const OUTPUT: u8 = 4;
 /// A real output that is computed only when it is read.
 pub(in crate::simulation) const STIFFNESS: u8 = 8;
+/// A real output that is computed by a step ahead when it is read.
+pub(in crate::simulation) const AHEAD: u8 = 16;
 /// Any real variable.
 const REAL: u8 = INPUT | PARAMETER | OUTPUT;
 
@@ -40,8 +42,11 @@ impl Access {
         let class = match variable.causality {
             Causality::Input => INPUT,
             Causality::Parameter => PARAMETER,
-            Causality::Output if matches!(quantity, Quantity::Stiffness(..)) => OUTPUT | STIFFNESS,
-            Causality::Output | Causality::Local => OUTPUT,
+            Causality::Output | Causality::Local => match quantity {
+                Quantity::Stiffness(..) | Quantity::SuggestedStep => OUTPUT | STIFFNESS,
+                Quantity::NextMeanForce(..) => OUTPUT | AHEAD,
+                _ => OUTPUT,
+            },
         };
         Self { min: min.unwrap_or(f64::MIN), max: max.unwrap_or(f64::MAX), class }
     }

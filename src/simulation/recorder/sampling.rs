@@ -282,6 +282,8 @@ fn as_recorded(output: Quantity) -> Recorded {
         | Quantity::Position(..)
         | Quantity::Velocity(..)
         | Quantity::MeanForce(..)
+        | Quantity::NextMeanForce(..)
+        | Quantity::SuggestedStep
         | Quantity::Stiffness(..)
         | Quantity::CageSpeed
         | Quantity::CageTorque

@@ -3,7 +3,7 @@
 mod derivatives;
 mod excitation;
 mod life;
-mod parameter_derivatives;
+mod look_ahead;
 mod refresh;
 mod running;
 mod samples;

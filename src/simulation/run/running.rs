@@ -1,14 +1,14 @@
 //! What runs, and what has been evaluated of it at the communication point.
 
 use super::excitation;
-use super::state::{Ended, State};
+use super::state::{Ended, FirstInputs, History, State};
 use crate::dynamics::parameters::{Excitation, Layout, Model, WholeAngle};
 use crate::numerics::plane::Matrix;
 use crate::scene::Scene;
 use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
 use crate::simulation::integration::{Control, Evaluation, Problem, Progress, Stepper, Workspace};
-use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution};
+use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution, suggested_step};
 use crate::simulation::recorder::{Due, Recorder};
 use crate::simulation::setup;
 use crate::simulation::step_error::StepError;
@@ -49,6 +49,8 @@ impl Run {
             reals,
             integers,
             input_rates: vec![[None; 2]; interface.inputs.count],
+            history: History::none(interface.inputs.count),
+            first: FirstInputs::none(interface.inputs.count),
         };
         Self { workspace: Workspace::new(&model), model, recorder, method: Method::Automatic, state }
     }
@@ -150,11 +152,14 @@ pub(super) struct Present {
     pub(super) evaluation: Evaluation,
     /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
     pub(super) stiffness: Matrix,
+    /// What a host that moves a ring should take for a step (s).
+    pub(super) suggested_step: f64,
 }
 
 impl Present {
     pub(super) fn new(model: &Model) -> Self {
-        Self { excitation: Excitation::default(), evaluation: Evaluation::new(model), stiffness: Matrix::zeros() }
+        let (excitation, evaluation) = (Excitation::default(), Evaluation::new(model));
+        Self { excitation, evaluation, stiffness: Matrix::zeros(), suggested_step: 0.0 }
     }
 
     /// Evaluates the right-hand side under `excitation`. It must not depend on what was computed before, or a restored
@@ -184,6 +189,7 @@ impl Present {
         let paths = forces.contacts.paths(model, &progress.state);
         let jacobian = model.ring_jacobian(paths, &progress.cells, &now, &mut forces.shortcuts);
         self.stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
+        self.suggested_step = suggested_step(model, &jacobian);
     }
 
     /// The outputs.

@@ -22,6 +22,8 @@ pub struct State {
     pub(in crate::simulation) integers: Vec<i32>,
     /// First and second derivatives of inputs for the next step, where the host has given any, by index.
     pub(in crate::simulation) input_rates: Vec<[Option<f64>; 2]>,
+    pub(super) history: History,
+    pub(super) first: FirstInputs,
 }
 
 /// Accelerations at the end of the last step that derivatives of inputs gave and no input says: outputs at that instant
@@ -34,6 +36,71 @@ pub(in crate::simulation) struct Ended {
     pub(in crate::simulation) housing: [f64; 2],
 }
 
+/// The last steps, as the host moved the rings in them.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct History {
+    /// Length of the last step (s); 0 before the first.
+    pub(super) step: f64,
+    /// Lengths of the two steps before it (s), the later one first; 0 where there was none.
+    pub(super) earlier: [f64; 2],
+    /// Mean accelerations over those (m/s²): of each step, of both rings, along both axes.
+    pub(super) means: [[[f64; 2]; 2]; 2],
+    /// Velocities at the beginning of the last step (m/s), of both rings.
+    pub(super) velocities: [[f64; 2]; 2],
+    /// Inputs where the last step has brought them.
+    pub(super) arrived: Vec<f64>,
+}
+
+impl History {
+    /// That of no step, for so many inputs.
+    pub(super) fn none(inputs: usize) -> Self {
+        let (means, velocities) = ([[[0.0; 2]; 2]; 2], [[0.0; 2]; 2]);
+        Self { step: 0.0, earlier: [0.0; 2], means, velocities, arrived: vec![0.0; inputs] }
+    }
+
+    /// All its numbers.
+    pub(super) fn numbers(&mut self) -> impl Iterator<Item = &mut f64> {
+        let means = self.means.as_flattened_mut().as_flattened_mut();
+        let rest = means.iter_mut().chain(self.velocities.as_flattened_mut()).chain(&mut self.arrived);
+        std::iter::once(&mut self.step).chain(&mut self.earlier).chain(rest)
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        let Self { step, earlier, means, velocities, arrived } = self;
+        (*step, *earlier, *means, *velocities) = (other.step, other.earlier, other.means, other.velocities);
+        arrived.copy_from_slice(&other.arrived);
+    }
+}
+
+/// What the host gave when it first took the step from a communication point; kept where `host.repeated_inputs` asks
+/// for it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FirstInputs {
+    /// Whether there are any.
+    pub(super) given: bool,
+    /// The communication point (s).
+    pub(super) time: f64,
+    /// The inputs.
+    pub(super) values: Vec<f64>,
+}
+
+impl FirstInputs {
+    /// None, of so many inputs.
+    pub(super) fn none(inputs: usize) -> Self {
+        Self { given: false, time: 0.0, values: vec![0.0; inputs] }
+    }
+
+    /// Whether they are those of the step from this communication point.
+    pub(super) fn are_of(&self, time: f64) -> bool {
+        self.given && self.time.to_bits() == time.to_bits()
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        (self.given, self.time) = (other.given, other.time);
+        self.values.copy_from_slice(&other.values);
+    }
+}
+
 impl State {
     /// Angles of cage and frames.
     pub(in crate::simulation) fn angles(&self) -> Angles {
@@ -42,12 +109,20 @@ impl State {
 
     /// Copies another state of the same model; allocates nothing.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates } = self;
+        self.copy_all_but_first(other);
+        self.first.copy_from(&other.first);
+    }
+
+    /// Copies all of it but the first inputs of a step.
+    pub(super) fn copy_all_but_first(&mut self, other: &Self) {
+        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates, history, first: _ } =
+            self;
         (*time, *started, *ended) = (other.time, other.started, other.ended);
         (*cage, *frames) = (other.cage, other.frames);
         progress.copy_from(&other.progress);
         reals.copy_from_slice(&other.reals);
         integers.copy_from_slice(&other.integers);
         input_rates.copy_from_slice(&other.input_rates);
+        history.copy_from(&other.history);
     }
 }

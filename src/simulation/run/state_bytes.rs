@@ -32,7 +32,10 @@ impl State {
         let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 4 * 8 + 4 * 8 + 2 * 8;
         let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
+        // Steps, means, velocities; the inputs twice, one list with a time and a flag.
+        let history = 8 * (1 + 2 + 8 + 4 + self.history.arrived.len()) + 1 + 8 * (1 + self.first.values.len());
         fixed
+            + history
             + 8 * real
             + 9 * rates
             + 4 * (progress.cells.iter().count() + self.integers.len())
@@ -81,6 +84,14 @@ impl State {
             flag(&mut given, field)?;
             real(&mut value, field)?;
             *rate = given.then_some(value);
+        }
+        for number in self.history.numbers() {
+            real(number, field)?;
+        }
+        flag(&mut self.first.given, field)?;
+        real(&mut self.first.time, field)?;
+        for value in &mut self.first.values {
+            real(value, field)?;
         }
         for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
@@ -150,8 +161,14 @@ impl Simulation {
             &state.reals,
         ];
         let rates = state.input_rates.as_flattened().iter().flatten();
-        if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) {
+        let finite = |number: &f64| number.is_finite();
+        let history = state.history.clone().numbers().all(|number| finite(number));
+        let first = finite(&state.first.time) && state.first.values.iter().all(finite);
+        if !numbers.into_iter().flatten().chain(rates).all(finite) || !history || !first {
             return Some("a number is not finite");
+        }
+        if [state.history.step].iter().chain(&state.history.earlier).any(|step| *step < 0.0) {
+            return Some("a communication step was shorter than 0");
         }
         // A step that is rejected is at least a tenth as long afterwards, one that is taken a fifth.
         if progress.next_step < 0.1 * SMALLEST_STEP {

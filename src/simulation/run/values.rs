@@ -79,6 +79,9 @@ impl Simulation {
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
         as_many(references.len(), values.len())?;
         let classes = self.interface.classes(references)?;
+        if classes & value_access::AHEAD != 0 {
+            self.look_ahead()?;
+        }
         if classes & value_access::OUTPUT != 0 {
             self.refresh()?;
         }

@@ -1,6 +1,6 @@
 //! Parameters that a host may set: their start values, and the scene with the values set.
 
-use crate::scene::{ContactLaw, Damping, Ring, Scene};
+use crate::scene::{ContactLaw, Damping, RepeatedInputs, Ring, Scene};
 use crate::simulation::SimulationError;
 use crate::simulation::interface::table::{Kind, Variable};
 use crate::simulation::interface::{Parameter, Quantity, RingName};
@@ -56,6 +56,9 @@ pub(in crate::simulation) fn with_parameters(
             Parameter::Tolerance => changed.tolerance = value,
             // The recorder is no part of the model.
             Parameter::RecorderFolder => {}
+            Parameter::RepeatedInputs => {
+                changed.repeated_inputs = RepeatedInputs::numbered(integer).unwrap_or(changed.repeated_inputs);
+            }
         }
     }
     changed.check()?;

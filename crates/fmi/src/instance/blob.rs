@@ -18,7 +18,7 @@ use brinell::simulation::Simulation;
 
 const MAGIC: &[u8; 8] = b"Brinell\0";
 /// Raised whenever the layout, here or in the simulation's state, changes.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 const GUID_LENGTH: usize = 38;
 const CHECKED_FROM: usize = 8 + 4 + 8;
 /// Numbers of the clock.

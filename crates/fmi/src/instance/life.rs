@@ -14,6 +14,9 @@ use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 
+/// Suggested steps from which on one is warned of: errors beyond some 10 %.
+const TOO_LONG: f64 = 3.0;
+
 /// One instance of the FMU.
 #[derive(Debug)]
 pub(crate) struct Instance {
@@ -41,6 +44,8 @@ pub(crate) struct Instance {
     pub(crate) rows: Vec<ValueReference>,
     /// The file that the recorder's samples go to.
     recording: Option<Recording>,
+    /// Longest step that has been looked at (s).
+    longest: f64,
     /// Strings handed out last, which stay valid until strings are read again.
     texts: Vec<CString>,
 }
@@ -61,6 +66,7 @@ impl Instance {
             updates: None,
             rows: Vec::new(),
             recording: None,
+            longest: 0.0,
             texts: Vec::new(),
         }
     }
@@ -73,6 +79,7 @@ impl Instance {
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
+        self.longest = 0.0;
         self.last_step = Status::Ok;
         Ok(unstored)
     }
@@ -110,7 +117,28 @@ impl Instance {
         let after = self.clock.as_ref().ok_or(Failure::NotSetUp)?.after(point, step)?;
         #[cfg(feature = "panic-on-demand")]
         self.logger.panic_on_demand();
+        if step > 1.1 * self.longest {
+            self.look_at_length(step)?;
+        }
         Ok(after)
+    }
+
+    /// Warns of a step that is too long for the casing; looks at each length once, and at none that is hardly longer.
+    #[cold]
+    fn look_at_length(&mut self, step: f64) -> Result<(), Failure> {
+        self.longest = step;
+        let Some(suggested) = self.simulation.suggested_step()? else { return Ok(()) };
+        if step > TOO_LONG * suggested {
+            self.logger.line(Status::Warning, || {
+                format!(
+                    "communication step of {step:e} s: the rings on this casing ask for some {suggested:.1e} s \
+                     (solver.suggested_step) where next_mean_force is held, mean_force taken in sequence or derivatives \
+                     passed on, and for a twenty-fifth of it where force is held; a longer one feeds or damps what it \
+                     couples, by its square."
+                )
+            });
+        }
+        Ok(())
     }
 
     /// Notes that the model has come to where this clock is.

@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::sync::LazyLock;
 
 /// The names, in the order in which a key's table is looked for; the empty one is the file itself.
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 15] = [
     "",
     "bearing",
     "contact",
@@ -20,6 +20,7 @@ const NAMES: [&str; 14] = [
     "sensor.mode",
     "probe",
     "solver",
+    "host",
     "recorder",
     "experiment",
 ];

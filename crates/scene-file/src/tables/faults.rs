@@ -22,6 +22,8 @@ pub(crate) enum TableFault {
          [[sensor.mode]]"
     )]
     ResponseNotFitted(String),
+    #[error("[host] has no effect: neither shaft.motion nor housing.motion is \"host\"")]
+    NoHost,
     #[error(transparent)]
     NotInCatalogue(#[from] NotInCatalogue),
     #[error("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise")]

@@ -40,6 +40,7 @@
 //! | `solver.tolerance`, `.max_steps` | 1e-5, 10 000 000 |
 //! | `contact.edge` | `"half-space"`: a sharp edge is as stiff as the middle of a raceway; or `"step"` |
 //! | `film` | none: dry contacts; its `layer_um` fills every gap |
+//! | `host.repeated_inputs` (with a ring of the host only) | `"start"`; or `"end"`: a repeated step is given its end |
 //! | `recorder` | none; its `filter` `"linear-phase"`, or `"none"` |
 //! | `experiment.stop_s`, `.step_s` | 0.5, 1e-4 |
 //!
@@ -65,7 +66,9 @@ pub(crate) use film::FilmTable;
 pub(crate) use rings::SensorModeTable;
 pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 
-use brinell::scene::{Contact, ContactEdge, ContactLaw, Damping, Experiment, Recorder, RecorderFilter, Scene};
+use brinell::scene::{
+    Contact, ContactEdge, ContactLaw, Damping, Experiment, Motion, Recorder, RecorderFilter, RepeatedInputs, Scene,
+};
 use one_or_more::OneOrMore;
 use pair_of_numbers::{optional, pair};
 use schemars::JsonSchema;
@@ -109,6 +112,8 @@ pub(crate) struct SceneFile {
     /// Time integration.
     #[serde(default)]
     solver: SolverTable,
+    /// How a host that moves a ring repeats steps.
+    host: Option<HostTable>,
     /// Samples taken inside the step.
     recorder: Option<RecorderTable>,
     /// Default run.
@@ -126,13 +131,26 @@ impl SceneFile {
         let shaft = faults.take(self.shaft.into_ring());
         let housing = faults.take(self.housing.into_ring());
         let sensors = faults.take(self.sensor.into_sensors());
+        let repeated_inputs = match self.host.map(|host| host.repeated_inputs) {
+            Some(_) if [&shaft, &housing].into_iter().flatten().all(|ring| ring.motion != Motion::Host) => {
+                faults.0.push(TableFault::NoHost);
+                None
+            }
+            given => Some(given.unwrap_or_default()),
+        };
         let inside = bearing.and_then(|bearing| {
             let defects = faults.take(self.defect.into_defects(&bearing));
             let cage = faults.take(self.cage.into_cage(bearing.element_count));
             Some((bearing, defects?, cage?))
         });
-        let (Some((bearing, defects, cage)), Some(contact), Some(shaft), Some(housing), Some(sensors)) =
-            (inside, contact, shaft, housing, sensors)
+        let (
+            Some((bearing, defects, cage)),
+            Some(contact),
+            Some(shaft),
+            Some(housing),
+            Some(sensors),
+            Some(repeated_inputs),
+        ) = (inside, contact, shaft, housing, sensors, repeated_inputs)
         else {
             return Err(faults);
         };
@@ -156,6 +174,7 @@ impl SceneFile {
             tolerance: self.solver.tolerance,
             max_steps: self.solver.max_steps,
             recorder: self.recorder.map(|table| Recorder { rate: table.rate_hz, filter: table.filter }),
+            repeated_inputs,
             experiment: Experiment { stop: self.experiment.stop_s, step: self.experiment.step_s },
         })
     }
@@ -243,6 +262,14 @@ impl Default for SolverTable {
     fn default() -> Self {
         Self { tolerance: 1e-5, max_steps: 10_000_000 }
     }
+}
+
+/// How a host that moves a ring repeats steps.
+#[derive(JsonSchema, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HostTable {
+    /// What inputs are when a step is repeated from the same communication point.
+    repeated_inputs: RepeatedInputs,
 }
 
 /// Samples taken inside the step.

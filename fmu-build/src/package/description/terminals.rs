@@ -13,7 +13,7 @@ use minijinja::context;
 use crate::package::render;
 
 /// What a terminal shows, by the member's name.
-const MEMBERS: [&str; 15] = [
+const MEMBERS: [&str; 17] = [
     "speed",
     "angle",
     "torque",
@@ -29,6 +29,8 @@ const MEMBERS: [&str; 15] = [
     "force.y",
     "mean_force.x",
     "mean_force.y",
+    "next_mean_force.x",
+    "next_mean_force.y",
 ];
 
 /// The file's text.

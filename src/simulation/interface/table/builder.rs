@@ -1,7 +1,7 @@
 //! How a row of the variable table is added, and what rows have in common.
 
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, Motion, Scene};
+use crate::scene::{ContactLaw, Motion, RepeatedInputs, Scene};
 use crate::simulation::interface::quantity::{Quantity, RingName};
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
@@ -9,6 +9,10 @@ pub(super) const CONTACT_LAWS: &[(&str, &str)] = &{
     let laws = ContactLaw::ALL;
     [laws[0].described(), laws[1].described(), laws[2].described()]
 };
+
+/// Items of the enumeration type of `host.repeated_inputs`.
+pub(super) const REPEATED_INPUTS: &[(&str, &str)] =
+    &[RepeatedInputs::ALL[0].described(), RepeatedInputs::ALL[1].described()];
 
 /// A table in the making.
 pub(super) struct Builder<'a> {

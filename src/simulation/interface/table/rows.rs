@@ -1,6 +1,7 @@
 //! The rows of the variable table for a scene: the one place where a variable is named.
 //!
-//! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
+//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index is its
+//! FMI value reference, which stays as rows are added.
 
 use crate::scene::{Motion, Scene};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};
@@ -14,10 +15,11 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.inputs();
     builder.outputs();
     builder.parameters();
+    builder.coupling();
     builder.into_rows()
 }
 
-const AXES: [&str; 2] = ["x", "y"];
+pub(super) const AXES: [&str; 2] = ["x", "y"];
 
 /// Sizes of an input: from -`largest` to `largest`, in its unit.
 #[derive(Debug, Clone, Copy)]
@@ -306,11 +308,11 @@ impl Builder<'_> {
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 
-    fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
+    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
         let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
         let variability = match quantity {
-            // The mean belongs to the last communication step.
-            Q::MeanForce(..) => Variability::Discrete,
+            // A mean belongs to a communication step.
+            Q::MeanForce(..) | Q::NextMeanForce(..) => Variability::Discrete,
             _ => Variability::Continuous,
         };
         self.push(name, text, kind, (Causality::Output, variability), quantity);

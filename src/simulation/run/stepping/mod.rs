@@ -4,6 +4,8 @@
 //! ended there, and shows its outputs. That changes no bit of what follows. Whoever sets an input meanwhile ends the
 //! part of the step before, and begins another with the inputs as they are.
 
+mod host_inputs;
+
 use super::life::{Simulation, UpToDate};
 use super::running::InputValues;
 use super::state::Ended;
@@ -53,12 +55,21 @@ impl StepUnderWay {
 impl Simulation {
     /// Advances by exactly `step` (s).
     pub fn step(&mut self, step: f64) -> Result<(), SimulationError> {
+        self.take_inputs(step);
+        let excitation = self.advance(step)?;
+        self.note_step(&excitation, step);
+        Ok(())
+    }
+
+    /// Advances by `step` (s) under the inputs as they are. Gives how they went on.
+    #[inline]
+    pub(super) fn advance(&mut self, step: f64) -> Result<Excitation, SimulationError> {
         let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
         let known = is_evaluated.then_some(&self.present.evaluation);
         let advanced = self.run.stepper(&excitation, control, known).advance(step);
         advanced.map_err(|cause| self.run.failed(cause))?;
         self.run.commit(&self.interface.inputs, &excitation, step);
-        Ok(())
+        Ok(excitation)
     }
 
     /// Begins a communication step of `step` (s).
@@ -91,6 +102,12 @@ impl Simulation {
     /// # Errors
     /// A step that is not finite and above 0, or before `initialize`; what cannot be integrated.
     pub fn begin_step(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
+        self.take_inputs(step);
+        self.begin_part(step)
+    }
+
+    /// Begins a step, or goes on with one under other inputs.
+    fn begin_part(&mut self, step: f64) -> Result<StepUnderWay, SimulationError> {
         let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
         let known = is_evaluated.then_some(&self.present.evaluation);
         let begun = self.run.stepper(&excitation, control, known).start(step);
@@ -113,6 +130,7 @@ impl Simulation {
         let StepUnderWay { excitation, control, advance } = under_way;
         self.run.stepper(&excitation, control, None).finish(&advance);
         self.run.commit(&self.interface.inputs, &excitation, advance.tau);
+        self.note_step(&excitation, advance.tau);
     }
 
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
@@ -122,6 +140,8 @@ impl Simulation {
         let state = &self.run.state;
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
         let inputs = self.run.input_values();
+        // Nobody looks ahead from within a step.
+        self.ahead.force = Some(self.run.state.progress.mean_force);
         self.run.commit(&self.interface.inputs, &under_way.excitation, under_way.advance.tau);
         Inspection { time, cage, frames, ended, inputs, arrived: self.run.input_values() }
     }
@@ -136,7 +156,7 @@ impl Simulation {
         if self.run.input_values() != inspection.arrived && !under_way.is_done() {
             let StepUnderWay { excitation, control, advance } = &*under_way;
             self.run.stepper(excitation, *control, None).finish_part(advance);
-            let mut next = self.begin_step(advance.end - advance.tau)?;
+            let mut next = self.begin_part(advance.end - advance.tau)?;
             next.advance.follow(advance);
             *under_way = next;
             return Ok(());
@@ -160,6 +180,7 @@ impl Simulation {
         let is_evaluated = self.begins_evaluated();
         let excitation = if is_evaluated { self.present.excitation } else { self.excitation(true) };
         self.up_to_date = UpToDate::State;
+        self.ahead.force = None;
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {
             self.setup.check_films(&self.run.model, &excitation, tau)?;

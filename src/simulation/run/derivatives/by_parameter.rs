@@ -1,10 +1,10 @@
 //! Derivatives of outputs at the start by parameters: differences of starts, since parameters shape the model itself,
 //! down to radii and contact laws.
 
-use super::life::UpToDate;
 use crate::contact::law::Elasticity;
 use crate::simulation::interface::Parameter;
 use crate::simulation::interface::table::Kind;
+use crate::simulation::run::life::UpToDate;
 use crate::simulation::{Simulation, SimulationError};
 
 /// How far a parameter is moved for the difference of two starts, a clearance by `approach` (m). Forces of a start are
@@ -49,7 +49,7 @@ impl Simulation {
     }
 
     /// Adds the derivative of `unknowns` at the start by a parameter, `weight` times, to `values`.
-    pub(super) fn along_parameter(
+    pub(in crate::simulation::run) fn along_parameter(
         &self,
         unknowns: &[u32],
         (known, parameter): (u32, Parameter),

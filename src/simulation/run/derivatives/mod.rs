@@ -15,6 +15,8 @@
 //! All follow from the first-order change of [`crate::dynamics::derivatives::variation`]. Means over the last step and
 //! counts of the solver change with nothing until the next step.
 
+mod by_parameter;
+
 use super::life::UpToDate;
 use super::running::Present;
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
@@ -294,7 +296,9 @@ impl Simulation {
             Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
             Quantity::Force(name, axis) => ring(name).2[axis],
             // Before the first step the mean is the force itself.
-            Quantity::MeanForce(name, axis) if !self.run.state.started => ring(name).2[axis],
+            Quantity::MeanForce(name, axis) | Quantity::NextMeanForce(name, axis) if !self.run.state.started => {
+                ring(name).2[axis]
+            }
             Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
             Quantity::SensorAcceleration(k) => {
                 self.run.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k]
@@ -312,7 +316,8 @@ impl Simulation {
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
-            Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Count(_) => 0.0,
+            Quantity::SuggestedStep => 0.0,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
         }
     }

@@ -1,0 +1,47 @@
+//! What a host that moves a ring finds beside the forces: what to hold, how long to step, and how it repeats a step.
+//!
+//! These rows stand after all others, so that older ones keep their references.
+
+use super::builder::{Builder, REPEATED_INPUTS, RINGS};
+use super::rows::AXES;
+use super::variables::{Causality, Kind, Unit, Variability};
+use crate::scene::Motion;
+use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
+
+impl Builder<'_> {
+    pub(super) fn coupling(&mut self) {
+        let hosted: Vec<RingName> = RINGS.into_iter().filter(|&ring| self.motion(ring) == Motion::Host).collect();
+        for &ring in &hosted {
+            let (name, what) = match ring {
+                RingName::Shaft => ("shaft", "inner ring"),
+                RingName::Housing => ("housing", "outer ring"),
+            };
+            for (axis, letter) in AXES.iter().enumerate() {
+                let text = format!(
+                    "Force of the bearing's contacts to hold on the {what} along {letter} over a next communication step of \
+                     the same length; for a host that steps all units in parallel and holds inputs"
+                );
+                let name = format!("{name}.next_mean_force.{letter}");
+                self.output(&name, &text, Q::NextMeanForce(ring, axis), Unit::Newton, 1000.0);
+            }
+        }
+        if hosted.is_empty() {
+            return;
+        }
+        let kind = Kind::Real { unit: Unit::Second, start: None, min: None, max: None, nominal: 1e-5 };
+        let text = "Communication step for errors of about 1 % with a wiring of second order, if a hosted ring has the \
+                    mass that is usual";
+        self.push("solver.suggested_step", text, kind, (Causality::Local, Variability::Continuous), Q::SuggestedStep);
+        self.push(
+            "host.repeated_inputs",
+            "What inputs are when a step is repeated from the same communication point",
+            Kind::Enumeration {
+                type_name: "RepeatedInputs",
+                items: REPEATED_INPUTS,
+                start: self.scene.repeated_inputs.number(),
+            },
+            (Causality::Parameter, Variability::Fixed),
+            Q::Parameter(Parameter::RepeatedInputs),
+        );
+    }
+}
