@@ -13,7 +13,7 @@ pub mod shipped;
 pub mod whole_file;
 
 pub use ending::program;
-pub use fmi_version::Version;
+pub use fmi_version::{Interface, Kind, Names, Version};
 pub use grid::Grid;
 pub use project::Project;
 pub use python::Python;

@@ -32,7 +32,7 @@ pub struct Simulation {
     pub(in crate::simulation) table: Arc<[Variable]>,
     pub(in crate::simulation) quantities: Arc<[Quantity]>,
     pub(in crate::simulation) access: Arc<[Access]>,
-    pub(super) inputs: Inputs,
+    pub(in crate::simulation) inputs: Inputs,
     pub(in crate::simulation) model: Model,
     pub(super) workspace: Workspace,
     /// `None` where the scene has no recorder.
@@ -150,7 +150,7 @@ impl Simulation {
             method: Method::Automatic,
             forces: Forces::of(&model),
             derivative: vec![0.0; model.layout.len],
-            change: Change::new(model.element_count),
+            change: Change::new(model.element_count, model.sensor_modes.state_len()),
             present_acceleration: Vector::zeros(),
             state: State {
                 time: 0.0,

@@ -14,6 +14,7 @@ mod values;
 
 pub use arrays::{ElementArray, of_all_elements};
 pub use life::Simulation;
+pub(in crate::simulation) use life::UpToDate;
 pub use samples::{Sample, Samples};
 pub use state::State;
 pub use stepping::{Inspection, StepUnderWay};

@@ -161,7 +161,7 @@ impl Simulation {
     }
 
     /// The variable, if it is a real output.
-    fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
+    pub(in crate::simulation) fn unknown(&self, reference: u32) -> Result<&Variable, VariableError> {
         let variable = self.variable(reference)?;
         if !matches!(variable.kind, Kind::Real { .. }) || variable.causality != Causality::Output {
             return Err(VariableError::NotAnUnknown { name: variable.name.clone() });
@@ -170,7 +170,7 @@ impl Simulation {
     }
 
     /// Starts the change with that of the inputs alone.
-    fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
+    pub(in crate::simulation) fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {
@@ -220,7 +220,7 @@ impl Simulation {
     }
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
-    fn finish_change(&mut self, unknowns: &[u32]) {
+    pub(in crate::simulation) fn finish_change(&mut self, unknowns: &[u32]) {
         let excitation = self.excitation(false);
         let progress = &self.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
@@ -283,7 +283,7 @@ impl Simulation {
     }
 
     /// What the change makes of one output.
-    fn changed(&self, quantity: Quantity) -> f64 {
+    pub(in crate::simulation) fn changed(&self, quantity: Quantity) -> f64 {
         let Change { variation, forces, .. } = &self.change;
         let ring = |name: RingName| match name {
             RingName::Shaft => (0, &variation.shaft, forces.shaft),
