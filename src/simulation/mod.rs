@@ -3,6 +3,7 @@
 //! This is the whole of what `crates/fmi` and `fmu-build` see of the model.
 
 mod error;
+pub mod exchange;
 pub mod integration;
 pub mod interface;
 pub mod recorder;

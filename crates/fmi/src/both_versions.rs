@@ -71,7 +71,8 @@ macro_rules! functions {
             call(instance, &functions::EXIT_INITIALIZATION_MODE, |instance| {
                 let clock = instance.clock.ok_or(Failure::NotSetUp)?;
                 instance.initialize(clock.start)?;
-                instance.enter(Mode::StepComplete, &functions::EXIT_INITIALIZATION_MODE);
+                let next = if instance.exchange { Mode::Event } else { Mode::StepComplete };
+                instance.enter(next, &functions::EXIT_INITIALIZATION_MODE);
                 Ok(())
             })
         }

@@ -8,14 +8,14 @@ use crate::instance::{Instance, handles};
 use crate::resources::{ResourceError, SharedModel};
 use crate::{boundary, resources};
 use libc::c_int;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why there is no instance.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Refusal {
     #[error("the instance name is NULL or blank: give each instance a name")]
     Name,
-    #[error("FMU type {0}: only co-simulation (1) is provided")]
+    #[error("FMU type {0}: only co-simulation (1) is provided; `brinell build --kind both` makes an FMU for both")]
     Type(c_int),
     #[error("the {0} is NULL: pass the one of modelDescription.xml")]
     NoToken(&'static str),
@@ -107,6 +107,17 @@ pub(crate) fn model(what: &'static str, token: &CStr, directory: PathBuf) -> Res
     }
     Ok(model)
 }
+
+/// Whether the resources' file `interface`, which only what is unusual has, says so with this word.
+pub(crate) fn is_marked(directory: &Path, word: &str) -> bool {
+    let marks = std::fs::read_to_string(directory.join("interface"));
+    marks.is_ok_and(|marks| marks.split_whitespace().any(|mark| mark == word))
+}
+
+/// Marks an FMU for model exchange.
+pub(crate) const MODEL_EXCHANGE: &str = "model-exchange";
+/// Marks an FMU of FMI 3.0 without arrays.
+pub(crate) const SCALARS: &str = "scalars";
 
 /// A string of the host's, if there is one.
 ///

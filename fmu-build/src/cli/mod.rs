@@ -158,6 +158,7 @@ impl Command {
 }
 
 fn build(project: &Project, options: Build) -> Result<()> {
+    let interface = options.interface()?;
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
         if options.reference {
@@ -179,7 +180,7 @@ fn build(project: &Project, options: Build) -> Result<()> {
                 println!("{}", path.display());
             }
         }
-        let path = fmu::write(model, &library, options.fmi, &folder)?;
+        let path = fmu::write(model, &library, interface, &folder)?;
         println!("{}", path.display());
     }
     Ok(())

@@ -14,8 +14,7 @@ use quick_xml::escape::escape;
 
 use super::model::{Model, remarks};
 use super::template::render;
-use crate::shared::Version;
-use crate::shared::digits;
+use crate::shared::{Interface, Version, digits};
 use variables::variables;
 
 const PAGE: &str = include_str!("../../assets/documentation.html");
@@ -24,7 +23,9 @@ const PAGE: &str = include_str!("../../assets/documentation.html");
 ///
 /// # Errors
 /// Of the page's template.
-pub fn write(model: &Model, version: Version) -> Result<String> {
+pub fn write(model: &Model, interface: impl Into<Interface>) -> Result<String> {
+    let interface = interface.into();
+    let version = interface.version;
     let scene = &model.scene;
     let filled = context! {
         name => &scene.name,
@@ -40,7 +41,9 @@ pub fn write(model: &Model, version: Version) -> Result<String> {
         },
         coupling => coupling::of(model),
         methods => Method::automatic_in_words(),
-        variables => variables(&model.simulation, version),
+        variables => variables(&model.simulation, interface),
+        exchanges => interface.exchanges(),
+        steps => interface.steps(),
         scene => &model.scene_text,
     };
     render("index.html", PAGE, filled)

@@ -10,8 +10,8 @@ use super::documentation;
 use super::library::Library;
 use super::model::Model;
 use crate::package::description::{model_description, terminals};
-use crate::shared::Version;
 use crate::shared::whole_file;
+use crate::shared::{Interface, Version};
 
 const ICON: &[u8] = include_bytes!("../../assets/model.png");
 const LICENSE: &str = "Brinell is licensed under either of\n\n\
@@ -20,14 +20,17 @@ const LICENSE: &str = "Brinell is licensed under either of\n\n\
     third-party.txt lists what else is compiled into the model library.\n";
 
 /// Packs a scene and the compiled library.
-pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8>> {
+pub fn pack(model: &Model, library: &Library, interface: impl Into<Interface>) -> Result<Vec<u8>> {
+    let interface = interface.into();
+    let version = interface.version;
     let mut archive = Archive::default();
-    archive.add("modelDescription.xml", model_description(model, version)?)?;
+    archive.add("modelDescription.xml", model_description(model, interface)?)?;
+    // FMI 2.0.4 has taken the terminals of 3.0 over.
+    archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals(model.simulation.table(), interface)?)?;
+    archive.add("terminalsAndIcons/icon.png", ICON)?;
     match version {
         Version::Fmi2 => archive.add("model.png", ICON)?,
         Version::Fmi3 => {
-            archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals(model.simulation.table())?)?;
-            archive.add("terminalsAndIcons/icon.png", ICON)?;
             if let Some(reference) = &model.reference {
                 reference.add_to(&mut archive)?;
             }
@@ -47,13 +50,16 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
     }
     archive.add("resources/scene.toml", model.scene_text.as_str())?;
     archive.add("resources/model.bin", model_file::encode(&model.scene, &model.scene_text)?)?;
+    if let Some(marks) = interface.marks() {
+        archive.add("resources/interface", marks)?;
+    }
     for profile in &model.profiles {
         archive.add(format!("resources/{}", profile.name), profile.text.as_str())?;
     }
     if let Some(map) = &model.map {
         archive.add("resources/map.bin", map.as_slice())?;
     }
-    archive.add("documentation/index.html", documentation::write(model, version)?)?;
+    archive.add("documentation/index.html", documentation::write(model, interface)?)?;
     archive.add("documentation/licenses/license.txt", LICENSE)?;
     archive.add("documentation/licenses/LICENSE-MIT", include_str!("../../../LICENSE-MIT"))?;
     archive.add("documentation/licenses/LICENSE-APACHE", include_str!("../../../LICENSE-APACHE"))?;
@@ -62,9 +68,9 @@ pub fn pack(model: &Model, library: &Library, version: Version) -> Result<Vec<u8
 }
 
 /// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.
-pub fn write(model: &Model, library: &Library, version: Version, folder: &Path) -> Result<PathBuf> {
+pub fn write(model: &Model, library: &Library, interface: impl Into<Interface>, folder: &Path) -> Result<PathBuf> {
     let path = folder.join(format!("{}.fmu", model.scene.name));
-    let bytes = pack(model, library, version).with_context(|| path.display().to_string())?;
+    let bytes = pack(model, library, interface).with_context(|| path.display().to_string())?;
     whole_file::write(&path, bytes)?;
     Ok(path)
 }

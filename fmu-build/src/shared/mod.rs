@@ -14,7 +14,7 @@ pub(crate) mod talk;
 pub mod whole_file;
 
 pub use ending::program;
-pub use fmi_version::Version;
+pub use fmi_version::{Interface, Kind, Names, Version};
 pub use grid::Grid;
 pub use project::Project;
 pub use python::Python;

@@ -46,6 +46,10 @@ pub struct ForceChange {
     pub inner: Vec<f64>,
     /// Of each outer contact's force (N).
     pub outer: Vec<f64>,
+    /// Of the rates of the elements' paths (m/s).
+    pub path_rate: Vec<f64>,
+    /// Of the rates of their absolute radial velocities (m/s²).
+    pub radial_acceleration: Vec<f64>,
     /// Of the force on the inner ring (N).
     pub shaft: Vector,
     /// Of the force on the outer ring (N).
@@ -93,7 +97,8 @@ impl Variation {
 impl ForceChange {
     /// Room for `count` elements.
     pub fn new(count: usize) -> Self {
-        Self { inner: vec![0.0; count], outer: vec![0.0; count], ..Self::default() }
+        let [inner, outer, path_rate, radial_acceleration] = [(); 4].map(|()| vec![0.0; count]);
+        Self { inner, outer, path_rate, radial_acceleration, ..Self::default() }
     }
 }
 
@@ -179,6 +184,8 @@ impl Model {
             let forces = self.changing_forces(j, cells, state, &now, by, shortcuts);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
+            change.path_rate[j] = forces.at.path_rate.by[0];
+            change.radial_acceleration[j] = self.radial_acceleration(&forces, &now, by).by[0];
             let around = forces.inner.y + forces.outer.y;
             let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = forces.at;
             let torque = self.torque_on_cage(e_t, [omega, alpha], [path, path_rate], around, acceleration);
@@ -199,6 +206,21 @@ impl Model {
             }
         }
         (change.shaft, change.housing) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
+    }
+
+    /// w' of an element, as the right-hand side has it.
+    fn radial_acceleration(
+        &self,
+        forces: &ElementForces<Changing>,
+        now: &FramedKinematics,
+        by: &Variation,
+    ) -> Changing {
+        let ElementMotion { e_r, e_t, omega, .. } = forces.at;
+        let housing = changing_vector(now.housing.velocity, by.housing.velocity);
+        let gravity = changing_vector(self.gravity, Vector::zeros());
+        let per_mass = changing(self.inverse_element_mass, 0.0);
+        let turning = omega * (housing.dot(&e_t) + forces.rho * omega);
+        (forces.inner.x - forces.outer.x) * per_mass + gravity.dot(&e_r) + turning
     }
 
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.

@@ -164,6 +164,14 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
+    /// Angle (rad) by which a direction in the body's frame is within `cell`, to the nearer of its ends; negative outside
+    /// it. Infinite without a defect.
+    pub fn within(&self, cell: u32, direction: f64) -> f64 {
+        let holding = |defect: &&SurfaceDefect| cell == SMOOTH || defect.holds(cell);
+        let defects = self.defects.iter().filter(holding);
+        defects.map(|defect| defect.within(cell, defect.angle(direction))).fold(f64::INFINITY, f64::min)
+    }
+
     /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a `direction` (rad) in the
     /// body's frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
     /// [`NearDefect::approach`].
@@ -228,6 +236,19 @@ impl SurfaceDefect {
             above if above == knots.len() => SMOOTH,
             above => self.first + (above - 1) as u32,
         }
+    }
+
+    /// Angle by which `angle` is within `cell`, one of this defect's or smooth; negative outside it.
+    fn within(&self, cell: u32, angle: f64) -> f64 {
+        let knots = self.knots();
+        let last = knots.len() - 1;
+        if cell != SMOOTH {
+            let here = (cell - self.first) as usize;
+            return (angle - knots[here]).min(knots[here + 1] - angle);
+        }
+        let inside = (angle - knots[0]).min(knots[last] - angle);
+        // Around the other side the way to an end may be the shorter one.
+        if inside > 0.0 { -inside } else { around(knots[0] - angle).min(around(angle - knots[last])) }
     }
 
     /// The knot that a contact in `cell`, one of this defect's or smooth, at `angle` meets next.

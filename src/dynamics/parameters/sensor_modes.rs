@@ -94,6 +94,13 @@ impl SensorModes {
         }
     }
 
+    /// Rate of slot `i` of their state, while the sensors' bodies have these accelerations (m/s²).
+    pub fn slope(&self, i: usize, acceleration: impl Fn(usize) -> f64, state: &[f64]) -> f64 {
+        let (mode, start) = (&self.modes[i / 2], i - i % 2);
+        let z = [state[start], state[start + 1]];
+        if i == start { z[1] } else { mode.returning(z) - acceleration(mode.sensor) }
+    }
+
     /// What sensor `k` measures (m/s²) while its body accelerates by `acceleration` (m/s²).
     pub fn measured(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
         let by_mode = |(mode, z): (&Mode, [f64; 2])| mode.shown([mode.returning(z), z[1]]);

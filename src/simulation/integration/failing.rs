@@ -75,7 +75,7 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
 }
 
 /// Beyond an element's radius the rings are beside each other, and a contact that is NaN would push nothing.
-pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
+pub(in crate::simulation) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let Problem { model, excitation } = problem;
     let shaft = model.shaft_state(excitation, tau, &progress.state).position;
     let housing = model.housing_state(excitation, tau, &progress.state).position;

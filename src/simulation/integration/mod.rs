@@ -12,6 +12,7 @@ mod switching;
 mod workspace;
 
 pub use advance::Advance;
+pub(in crate::simulation) use failing::check_rings;
 pub use progress::{Progress, StepCounts};
 pub use stepper::{Control, Stepper};
 pub use switching::{Choice, Method};

@@ -21,12 +21,15 @@ pub(in crate::simulation) struct Change {
     pub(in crate::simulation) sensor_accelerations: [f64; MOST_SENSORS],
     /// Of what they measure, by the motion of the modes under them.
     pub(in crate::simulation) by_sensor_modes: [f64; MOST_SENSORS],
+    /// Of those modes' state, where somebody else integrates it.
+    pub(in crate::simulation) modes: Vec<f64>,
     pub(in crate::simulation) cage_torque: f64,
     pub(in crate::simulation) stiffness: Matrix,
 }
 
 impl Change {
-    pub(in crate::simulation) fn new(count: usize) -> Self {
+    /// No change, for so many elements and slots of the modes under sensors.
+    pub(in crate::simulation) fn new(count: usize, modes: usize) -> Self {
         Self {
             variation: Variation::new(count),
             forces: ForceChange::new(count),
@@ -35,6 +38,7 @@ impl Change {
             accelerations: [Vector::zeros(); 2],
             sensor_accelerations: [0.0; MOST_SENSORS],
             by_sensor_modes: [0.0; MOST_SENSORS],
+            modes: vec![0.0; modes],
             cage_torque: 0.0,
             stiffness: Matrix::zeros(),
         }
@@ -45,6 +49,7 @@ impl Change {
         (self.loads, self.accelerations) = (Rings::zeros(), [Vector::zeros(); 2]);
         (self.sensors, self.sensor_accelerations) = ([[0.0; 2]; MOST_SENSORS], [0.0; MOST_SENSORS]);
         self.by_sensor_modes = [0.0; MOST_SENSORS];
+        self.modes.fill(0.0);
         self.cage_torque = 0.0;
         self.stiffness = Matrix::zeros();
     }

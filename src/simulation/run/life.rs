@@ -21,11 +21,11 @@ use std::sync::Arc;
 /// [`step`](Self::step). Reading outputs before `initialize` computes the static equilibrium of the values set so far.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    pub(super) setup: Setup,
-    pub(super) interface: Interface,
-    pub(super) run: Run,
-    pub(super) present: Present,
-    pub(super) change: Change,
+    pub(in crate::simulation) setup: Setup,
+    pub(in crate::simulation) interface: Interface,
+    pub(in crate::simulation) run: Run,
+    pub(in crate::simulation) present: Present,
+    pub(in crate::simulation) change: Change,
     pub(super) up_to_date: UpToDate,
     pub(super) ahead: Ahead,
 }
@@ -41,7 +41,7 @@ pub(super) struct Ahead {
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum UpToDate {
+pub(in crate::simulation) enum UpToDate {
     /// Nothing: parameters have been set since the model was built.
     Nothing,
     /// The model; before the start the equilibrium is still to be found.
@@ -94,7 +94,7 @@ impl Simulation {
         let run = Run::new(model, &setup.scene, &interface);
         Ok(Self {
             present: Present::new(&run.model),
-            change: Change::new(run.model.element_count),
+            change: Change::new(run.model.element_count, run.model.sensor_modes.state_len()),
             ahead: Ahead::default(),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
             setup,
@@ -262,12 +262,12 @@ impl Simulation {
     }
 
     /// Notes that what follows after `last` is no longer that of the values set.
-    pub(super) fn invalidate(&mut self, last: UpToDate) {
+    pub(in crate::simulation) fn invalidate(&mut self, last: UpToDate) {
         self.up_to_date = self.up_to_date.min(last);
     }
 
     /// Where every external influence is, during the next step if `stepping`.
-    pub(super) fn excitation(&self, stepping: bool) -> Excitation {
+    pub(in crate::simulation) fn excitation(&self, stepping: bool) -> Excitation {
         self.run.excitation(&self.interface.inputs, stepping)
     }
 

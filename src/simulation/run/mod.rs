@@ -13,6 +13,8 @@ pub mod stepping;
 mod values;
 
 pub use life::Simulation;
+pub(in crate::simulation) use life::UpToDate;
+pub(in crate::simulation) use running::Run;
 pub use samples::{Sample, Samples};
 pub use state::State;
 pub use stepping::{Inspection, StepUnderWay};

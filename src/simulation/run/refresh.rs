@@ -11,7 +11,7 @@ use crate::simulation::interface::{Outputs, Quantity};
 impl Simulation {
     /// Evaluates the right-hand side at the communication point, unless it is that of the values set.
     #[inline]
-    pub(super) fn refresh(&mut self) -> Result<(), SimulationError> {
+    pub(in crate::simulation) fn refresh(&mut self) -> Result<(), SimulationError> {
         if self.up_to_date >= UpToDate::Forces {
             return Ok(());
         }

@@ -18,25 +18,25 @@ const MOST_INPUTS: usize = 2 + 2 * 6;
 
 /// Inputs with their derivatives; slots beyond the last input are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct InputValues {
+pub(in crate::simulation) struct InputValues {
     values: [f64; MOST_INPUTS],
     rates: [[Option<f64>; 2]; MOST_INPUTS],
 }
 
 /// What runs: the model, its state, and what steps it.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
-    pub(super) model: Model,
-    pub(super) workspace: Workspace,
+pub(in crate::simulation) struct Run {
+    pub(in crate::simulation) model: Model,
+    pub(in crate::simulation) workspace: Workspace,
     /// `None` where the scene has no recorder.
-    pub(super) recorder: Option<Recorder>,
-    pub(super) method: Method,
-    pub(super) state: State,
+    pub(in crate::simulation) recorder: Option<Recorder>,
+    pub(in crate::simulation) method: Method,
+    pub(in crate::simulation) state: State,
 }
 
 impl Run {
     /// A model at rest.
-    pub(super) fn new(model: Model, scene: &Scene, interface: &Interface) -> Self {
+    pub(in crate::simulation) fn new(model: Model, scene: &Scene, interface: &Interface) -> Self {
         let recorder = Recorder::of(scene, &interface.table, &interface.quantities);
         let (reals, integers) = setup::start_values(&interface.table);
         let state = State {
@@ -56,23 +56,23 @@ impl Run {
     }
 
     /// Length of the recorder's rows under way.
-    pub(super) fn rows_under_way(&self) -> usize {
+    pub(in crate::simulation) fn rows_under_way(&self) -> usize {
         self.recorder.as_ref().map_or(0, Recorder::under_way)
     }
 
     /// Where every external influence is, during the next step if `stepping`.
-    pub(super) fn excitation(&self, inputs: &Inputs, stepping: bool) -> Excitation {
+    pub(in crate::simulation) fn excitation(&self, inputs: &Inputs, stepping: bool) -> Excitation {
         excitation::excitation(&self.state, inputs, &self.model.ratios, stepping)
     }
 
     /// What the solver has counted.
-    pub(super) fn count(&self, count: Count) -> u64 {
+    pub(in crate::simulation) fn count(&self, count: Count) -> u64 {
         self.state.progress.count(count, self.model.solves_grids())
     }
 
     /// Readies what goes along with a communication step.
     #[inline]
-    pub(super) fn begin(&mut self) {
+    pub(in crate::simulation) fn begin(&mut self) {
         self.workspace.forces.shortcuts.forget();
         match self.recorder.as_mut().filter(|recorder| recorder.is_on()) {
             Some(recorder) => recorder.begin(self.state.time, self.state.angles()),
@@ -82,7 +82,7 @@ impl Run {
     }
 
     #[inline]
-    pub(super) fn control(&self, scene: &Scene, inputs: &Inputs) -> Control {
+    pub(in crate::simulation) fn control(&self, scene: &Scene, inputs: &Inputs) -> Control {
         let method = match self.method {
             Method::Automatic | Method::Rodas if self.model.elements_in_balance() => Method::Explicit,
             method => method,
@@ -93,7 +93,7 @@ impl Run {
 
     /// What steps, where a step may begin with a right-hand side that is `known`.
     #[inline]
-    pub(super) fn stepper<'a>(
+    pub(in crate::simulation) fn stepper<'a>(
         &'a mut self,
         excitation: &'a Excitation,
         control: Control,
@@ -111,7 +111,7 @@ impl Run {
 
     /// Time, angles and inputs move on by `step` (s).
     #[inline]
-    pub(super) fn commit(&mut self, inputs: &Inputs, excitation: &Excitation, step: f64) {
+    pub(in crate::simulation) fn commit(&mut self, inputs: &Inputs, excitation: &Excitation, step: f64) {
         self.state.cage = self.state.cage.advanced(excitation.cage.at(step));
         if inputs.frames {
             for (angle, turning) in self.state.frames.iter_mut().zip(&excitation.frames) {
@@ -123,7 +123,7 @@ impl Run {
     }
 
     /// The inputs as they are.
-    pub(super) fn input_values(&self) -> InputValues {
+    pub(in crate::simulation) fn input_values(&self) -> InputValues {
         let count = self.state.input_rates.len();
         let mut inputs = InputValues { values: [0.0; MOST_INPUTS], rates: [[None; 2]; MOST_INPUTS] };
         inputs.values[..count].copy_from_slice(&self.state.reals[..count]);
@@ -132,39 +132,39 @@ impl Run {
     }
 
     /// Puts inputs back.
-    pub(super) fn set_inputs(&mut self, inputs: &InputValues) {
+    pub(in crate::simulation) fn set_inputs(&mut self, inputs: &InputValues) {
         let count = self.state.input_rates.len();
         self.state.reals[..count].copy_from_slice(&inputs.values[..count]);
         self.state.input_rates.copy_from_slice(&inputs.rates[..count]);
     }
 
-    pub(super) fn failed(&self, cause: StepError) -> SimulationError {
+    pub(in crate::simulation) fn failed(&self, cause: StepError) -> SimulationError {
         SimulationError::Step { time: self.state.time, cause }
     }
 }
 
 /// The bearing at the communication point.
 #[derive(Debug, Clone)]
-pub(super) struct Present {
+pub(in crate::simulation) struct Present {
     /// What acts from outside.
-    pub(super) excitation: Excitation,
+    pub(in crate::simulation) excitation: Excitation,
     /// The right-hand side under it.
-    pub(super) evaluation: Evaluation,
+    pub(in crate::simulation) evaluation: Evaluation,
     /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
-    pub(super) stiffness: Matrix,
+    pub(in crate::simulation) stiffness: Matrix,
     /// What a host that moves a ring should take for a step (s).
-    pub(super) suggested_step: f64,
+    pub(in crate::simulation) suggested_step: f64,
 }
 
 impl Present {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(in crate::simulation) fn new(model: &Model) -> Self {
         let (excitation, evaluation) = (Excitation::default(), Evaluation::new(model));
         Self { excitation, evaluation, stiffness: Matrix::zeros(), suggested_step: 0.0 }
     }
 
     /// Evaluates the right-hand side under `excitation`. It must not depend on what was computed before, or a restored
     /// state would show other roundings.
-    pub(super) fn evaluate(&mut self, Run { model, state, .. }: &Run, excitation: Excitation) {
+    pub(in crate::simulation) fn evaluate(&mut self, Run { model, state, .. }: &Run, excitation: Excitation) {
         let (Evaluation { derivative, forces }, progress) = (&mut self.evaluation, &state.progress);
         forces.shortcuts.forget();
         (forces.defect_lookups, forces.unsolved) = (0, None);
@@ -173,7 +173,7 @@ impl Present {
     }
 
     /// The start is a static equilibrium: what rounding leaves of accelerations is none.
-    pub(super) fn rest(&mut self, layout: &Layout) {
+    pub(in crate::simulation) fn rest(&mut self, layout: &Layout) {
         let derivative = &mut self.evaluation.derivative;
         for start in [layout.shaft, layout.housing].into_iter().flatten() {
             derivative[start + 2..start + 4].fill(0.0);
@@ -183,7 +183,7 @@ impl Present {
         }
     }
 
-    pub(super) fn evaluate_stiffness(&mut self, Run { model, state, .. }: &Run) {
+    pub(in crate::simulation) fn evaluate_stiffness(&mut self, Run { model, state, .. }: &Run) {
         let (progress, forces) = (&state.progress, &mut self.evaluation.forces);
         let now = model.kinematics(&self.excitation, 0.0, &progress.state);
         let paths = forces.contacts.paths(model, &progress.state);
@@ -193,7 +193,7 @@ impl Present {
     }
 
     /// The outputs.
-    pub(super) fn outputs<'a>(&'a self, Run { model, state, .. }: &'a Run) -> Outputs<'a> {
+    pub(in crate::simulation) fn outputs<'a>(&'a self, Run { model, state, .. }: &'a Run) -> Outputs<'a> {
         let (Evaluation { derivative, forces }, progress) = (&self.evaluation, &state.progress);
         let solution = Solution {
             excitation: &self.excitation,

@@ -9,9 +9,9 @@ use crate::simulation::interface::Angles;
 /// changes no bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    pub(super) time: f64,
+    pub(in crate::simulation) time: f64,
     pub(in crate::simulation) started: bool,
-    pub(super) cage: WholeAngle,
+    pub(in crate::simulation) cage: WholeAngle,
     /// Angles of the frames of defects, in the order of [`crate::dynamics::parameters::Frame`].
     pub(in crate::simulation) frames: [WholeAngle; 3],
     pub(in crate::simulation) ended: Ended,

@@ -35,7 +35,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 array_mut("dvUnknown", dvUnknown, nUnknown)?,
             )
         };
-        instance.simulation.directional_derivative(unknowns, knowns, seed, values)?;
+        instance.directional_derivative(unknowns, knowns, seed, values)?;
         finite(&instance.simulation, unknowns, values)
     })
 }

@@ -5,7 +5,9 @@
 use std::ptr;
 
 use super::functions;
-use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, Real, Status};
+use super::types::{
+    Boolean, CO_SIMULATION, CallbackFunctions, Component, FALSE, FmiString, FmuType, MODEL_EXCHANGE, Real, Status,
+};
 use crate::c_interface::{Logger, uri};
 use crate::instance::{Clock, Failure, Mode};
 use crate::instantiation::{Refusal, text};
@@ -51,16 +53,23 @@ pub unsafe extern "C" fn fmi2Instantiate(
         name,
         |name| Logger::formatted(&callbacks, name, loggingOn != FALSE),
         || {
-            if fmuType != CO_SIMULATION {
+            if ![CO_SIMULATION, MODEL_EXCHANGE].contains(&fmuType) {
                 return Err(Refusal::Type(fmuType));
             }
             let guid = guid.ok_or(Refusal::NoToken("GUID"))?;
             let location = location.ok_or(Refusal::NoResources(
                 "resource location is NULL: pass the URI of the unpacked directory \"resources\"",
             ))?;
-            instantiation::model("GUID", guid, uri::path(location.to_bytes())?)
+            let resources = uri::path(location.to_bytes())?;
+            if fmuType == MODEL_EXCHANGE && !instantiation::is_marked(&resources, instantiation::MODEL_EXCHANGE) {
+                return Err(Refusal::Type(fmuType));
+            }
+            instantiation::model("GUID", guid, resources)
         },
-        |_| Ok(()),
+        |instance| {
+            instance.exchange = fmuType == MODEL_EXCHANGE;
+            Ok(())
+        },
     )
 }
 

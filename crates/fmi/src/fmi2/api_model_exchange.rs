@@ -1,39 +1,108 @@
-//! The functions of model exchange, which this FMU does not provide.
-//!
-//! The standard asks a co-simulation FMU for none of them. Some importers (fmuloader 0.1) look up the functions of both
-//! kinds when they load the binary, and fail if one is missing. So they are there, touch no argument and return
-//! `fmi2Error`.
+//! The functions of model exchange. An FMU for co-simulation alone has them too, and they answer `fmi2Error`: some
+//! importers (fmuloader 0.1) look up the functions of both kinds when they load the binary, and fail if one is missing.
 
 #![allow(non_snake_case)]
 
 use super::functions::ALWAYS;
-use super::types::{Boolean, Component, EventInfo, Real, Status};
+use super::types::{Boolean, Component, EventInfo, FALSE, Real, Status};
+use crate::arguments::{array, array_mut, store};
 use crate::boundary;
-use crate::instance::{Failure, Function, Version};
+use crate::instance::Mode::{ContinuousTime, Error, Event, Terminated};
+use crate::instance::{Function, Mode, Modes, PerItem, Version, modes};
 
-macro_rules! not_provided {
-    ($($name:ident($($argument:ty),*);)*) => {$(
-        /// A function of model exchange: always an error.
+/// Functions by name and arguments, the modes in which they may be called, and what they do.
+macro_rules! functions {
+    ($($(#[$meaning:meta])* $name:ident($($argument:ident: $type:ty),*) $within:expr, $body:expr;)*) => {$(
+        $(#[$meaning])*
         ///
         /// # Safety
-        /// `c` may be any value; the other arguments are not read.
+        /// `c` may be any value; pointers are null or point to what their names say, arrays to as many elements as said.
         #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(c: Component, $(_: $argument),*) -> Status {
-            const FUNCTION: &Function = &Function { name: stringify!($name), version: Version::Fmi2, allowed: ALWAYS };
-            boundary::call(c, FUNCTION, |_| Err(Failure::ModelExchange))
+        pub unsafe extern "C" fn $name(c: Component, $($argument: $type),*) -> Status {
+            const ANY: Function = Function { name: stringify!($name), version: Version::Fmi2, allowed: ALWAYS };
+            const WITHIN: Modes = $within;
+            const HERE: Function = Function { name: stringify!($name), version: Version::Fmi2, allowed: WITHIN };
+            boundary::call(c, &ANY, |instance| {
+                instance.exchanges(&HERE, &WITHIN)?;
+                #[allow(clippy::redundant_closure_call)]
+                ($body)(instance, &HERE, $($argument),*)
+            })
         }
     )*};
 }
 
-not_provided! {
-    fmi2EnterEventMode();
-    fmi2NewDiscreteStates(*mut EventInfo);
-    fmi2EnterContinuousTimeMode();
-    fmi2CompletedIntegratorStep(Boolean, *mut Boolean, *mut Boolean);
-    fmi2SetTime(Real);
-    fmi2SetContinuousStates(*const Real, usize);
-    fmi2GetDerivatives(*mut Real, usize);
-    fmi2GetEventIndicators(*mut Real, usize);
-    fmi2GetContinuousStates(*mut Real, usize);
-    fmi2GetNominalsOfContinuousStates(*mut Real, usize);
+type Instance<'a> = &'a mut crate::instance::Instance;
+type Done = Result<(), crate::instance::Failure>;
+
+const AT_ANY_TIME: Modes = modes([Mode::Initialization, Event, ContinuousTime, Terminated, Error]);
+
+functions! {
+    /// `fmi2EnterEventMode`.
+    fmi2EnterEventMode() modes([Event, ContinuousTime]), |instance: Instance, function| -> Done {
+        instance.enter(Event, function);
+        Ok(())
+    };
+    /// `fmi2NewDiscreteStates`: contacts at the end of their part of a defect enter the next one. Nothing is iterated.
+    fmi2NewDiscreteStates(eventInfo: *mut EventInfo) modes([Event]), |instance: Instance, _, info| -> Done {
+        instance.handle_event()?;
+        let none = EventInfo {
+            new_discrete_states_needed: FALSE,
+            terminate_simulation: FALSE,
+            nominals_of_continuous_states_changed: FALSE,
+            values_of_continuous_states_changed: FALSE,
+            next_event_time_defined: FALSE,
+            next_event_time: 0.0,
+        };
+        // SAFETY: this function's contract; null and misaligned pointers are refused.
+        unsafe { store("eventInfo", info, none) }
+    };
+    /// `fmi2EnterContinuousTimeMode`.
+    fmi2EnterContinuousTimeMode() modes([Event]), |instance: Instance, function| -> Done {
+        instance.enter(ContinuousTime, function);
+        Ok(())
+    };
+    /// `fmi2CompletedIntegratorStep`: neither an event nor the end is asked for.
+    fmi2CompletedIntegratorStep(
+        noSetFMUStatePriorToCurrentPoint: Boolean,
+        enterEventMode: *mut Boolean,
+        terminateSimulation: *mut Boolean
+    ) modes([ContinuousTime]), |instance: Instance, _, _: Boolean, event, end| -> Done {
+        // SAFETY: this function's contract; null and misaligned pointers are refused.
+        unsafe {
+            store("enterEventMode", event, FALSE)?;
+            store("terminateSimulation", end, FALSE)?;
+        }
+        Ok(instance.simulation.accept_states()?)
+    };
+    /// `fmi2SetTime`.
+    fmi2SetTime(time: Real) modes([Event, ContinuousTime]), |instance: Instance, _, time| -> Done {
+        instance.set_time(time)
+    };
+    /// `fmi2SetContinuousStates`.
+    fmi2SetContinuousStates(x: *const Real, nx: usize) modes([ContinuousTime]), |instance: Instance, _, x, nx| -> Done {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        instance.set_states(unsafe { array("x", x, nx)? })
+    };
+    /// `fmi2GetDerivatives`.
+    fmi2GetDerivatives(derivatives: *mut Real, nx: usize) AT_ANY_TIME, |instance: Instance, _, values, nx| -> Done {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        instance.fill(PerItem::Derivatives, unsafe { array_mut("derivatives", values, nx)? })
+    };
+    /// `fmi2GetEventIndicators`.
+    fmi2GetEventIndicators(eventIndicators: *mut Real, ni: usize) AT_ANY_TIME,
+        |instance: Instance, _, values, ni| -> Done {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        instance.fill(PerItem::Indicators, unsafe { array_mut("eventIndicators", values, ni)? })
+    };
+    /// `fmi2GetContinuousStates`.
+    fmi2GetContinuousStates(x: *mut Real, nx: usize) AT_ANY_TIME, |instance: Instance, _, values, nx| -> Done {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        instance.fill(PerItem::States, unsafe { array_mut("x", values, nx)? })
+    };
+    /// `fmi2GetNominalsOfContinuousStates`.
+    fmi2GetNominalsOfContinuousStates(x_nominal: *mut Real, nx: usize) AT_ANY_TIME,
+        |instance: Instance, _, values, nx| -> Done {
+        // SAFETY: this function's contract; null and misaligned arrays are refused.
+        instance.fill(PerItem::Nominals, unsafe { array_mut("x_nominal", values, nx)? })
+    };
 }

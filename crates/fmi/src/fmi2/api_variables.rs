@@ -48,7 +48,7 @@ macro_rules! functions {
 functions! {
     /// `fmi2GetReal`.
     get fmi2GetReal(*mut Real) GET_REAL |instance, references, values| {
-        instance.simulation.reals(references, values)?;
+        instance.reals(references, values)?;
         finite(&instance.simulation, references, values)
     };
     /// `fmi2GetInteger`: integers and enumerations.

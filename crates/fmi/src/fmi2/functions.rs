@@ -1,16 +1,18 @@
-//! In which modes each function of FMI 2.0 may be called: a transcription of the table of section 4.2.4 of FMI 2.0.x
-//! for co-simulation. `fmi2Instantiate`, `fmi2GetTypesPlatform` and `fmi2GetVersion` take no instance, so they have no
+//! In which modes each function of FMI 2.0 may be called: a transcription of the tables of sections 3.2.3 and 4.2.4 of
+//! FMI 2.0.x, but for the functions of model exchange alone. `fmi2Instantiate`, `fmi2GetTypesPlatform` and `fmi2GetVersion` take no instance, so they have no
 //! row.
 
-use crate::instance::Mode::{Error, Initialization, Instantiated, StepComplete, Terminated};
+use crate::instance::Mode::{ContinuousTime, Error, Event, Initialization, Instantiated, StepComplete, Terminated};
 use crate::instance::{Function, Modes, Version, modes};
 
 /// Every mode.
-pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);
+pub(super) const ALWAYS: Modes =
+    modes([Instantiated, Initialization, StepComplete, Event, ContinuousTime, Terminated, Error]);
 const BEFORE: Modes = modes([Instantiated]);
-const READ: Modes = modes([Initialization, StepComplete, Terminated, Error]);
+const READ: Modes = modes([Initialization, StepComplete, Event, ContinuousTime, Terminated, Error]);
 const READ_RESULT: Modes = modes([StepComplete, Terminated, Error]);
-const WRITE: Modes = modes([Instantiated, Initialization, StepComplete]);
+const WRITE: Modes = modes([Instantiated, Initialization, StepComplete, Event, ContinuousTime]);
+const STEP: Modes = modes([Instantiated, Initialization, StepComplete]);
 const QUERY: Modes = modes([StepComplete, Terminated]);
 
 macro_rules! functions {
@@ -28,7 +30,7 @@ functions! {
     SETUP_EXPERIMENT            "fmi2SetupExperiment"           BEFORE;
     ENTER_INITIALIZATION_MODE   "fmi2EnterInitializationMode"   BEFORE;
     EXIT_INITIALIZATION_MODE    "fmi2ExitInitializationMode"    modes([Initialization]);
-    TERMINATE                   "fmi2Terminate"                 modes([StepComplete]);
+    TERMINATE                   "fmi2Terminate"                 modes([StepComplete, Event, ContinuousTime]);
     RESET                       "fmi2Reset"                     ALWAYS;
     GET_REAL                    "fmi2GetReal"                   READ;
     GET_INTEGER                 "fmi2GetInteger"                READ;
@@ -45,7 +47,7 @@ functions! {
     SERIALIZE_FMU_STATE         "fmi2SerializeFMUstate"         ALWAYS;
     DESERIALIZE_FMU_STATE       "fmi2DeSerializeFMUstate"       ALWAYS;
     GET_DIRECTIONAL_DERIVATIVE  "fmi2GetDirectionalDerivative"  READ;
-    SET_REAL_INPUT_DERIVATIVES  "fmi2SetRealInputDerivatives"   WRITE;
+    SET_REAL_INPUT_DERIVATIVES  "fmi2SetRealInputDerivatives"   STEP;
     GET_REAL_OUTPUT_DERIVATIVES "fmi2GetRealOutputDerivatives"  READ_RESULT;
     DO_STEP                     "fmi2DoStep"                    modes([StepComplete]);
     CANCEL_STEP                 "fmi2CancelStep"                modes([]);

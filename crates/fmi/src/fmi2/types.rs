@@ -29,7 +29,9 @@ pub const FALSE: Boolean = 0;
 /// `fmi2True`.
 pub const TRUE: Boolean = 1;
 
-/// `fmi2CoSimulation`; the other type, model exchange, is 0.
+/// `fmi2ModelExchange`.
+pub const MODEL_EXCHANGE: FmuType = 0;
+/// `fmi2CoSimulation`.
 pub const CO_SIMULATION: FmuType = 1;
 
 /// `fmi2DoStepStatus`.
@@ -41,9 +43,20 @@ pub const LAST_SUCCESSFUL_TIME: StatusKind = 2;
 /// `fmi2Terminated`.
 pub const TERMINATED: StatusKind = 3;
 
-/// `fmi2EventInfo`; never touched, for it belongs to model exchange.
+/// `fmi2EventInfo`: what an event has changed.
 #[repr(C)]
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventInfo {
-    _opaque: [u8; 0],
+    /// `newDiscreteStatesNeeded`.
+    pub new_discrete_states_needed: Boolean,
+    /// `terminateSimulation`.
+    pub terminate_simulation: Boolean,
+    /// `nominalsOfContinuousStatesChanged`.
+    pub nominals_of_continuous_states_changed: Boolean,
+    /// `valuesOfContinuousStatesChanged`.
+    pub values_of_continuous_states_changed: Boolean,
+    /// `nextEventTimeDefined`.
+    pub next_event_time_defined: Boolean,
+    /// `nextEventTime` (s).
+    pub next_event_time: Real,
 }

@@ -9,7 +9,6 @@ use super::values::{expand, may_read};
 use crate::arguments::{array, array_mut, disjoint};
 use crate::instance::{Failure, Function, ValueCount, finite};
 use crate::{boundary, instance};
-use brinell::simulation::{Simulation, SimulationError};
 
 /// An array as a host gives it.
 struct Given<P> {
@@ -26,7 +25,7 @@ struct Product {
 }
 
 /// What the model computes of rows of unknowns and knowns and a seed.
-type Computed = fn(&mut Simulation, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), SimulationError>;
+type Computed = fn(&mut instance::Instance, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), Failure>;
 
 /// Computes a product. `adjoint` says which of unknowns and knowns the seed belongs to.
 ///
@@ -56,11 +55,11 @@ unsafe fn product(handle: Instance, function: &'static Function, product: Produc
             expand(instance, knowns, of_knowns, rows)?;
             let (unknowns, knowns) = rows.split_at(count);
             let (compute, of): (Computed, _) = if adjoint {
-                (Simulation::adjoint_derivative, knowns)
+                (instance::Instance::adjoint_derivative, knowns)
             } else {
-                (Simulation::directional_derivative, unknowns)
+                (instance::Instance::directional_derivative, unknowns)
             };
-            compute(&mut instance.simulation, unknowns, knowns, seed, sensitivity)?;
+            compute(instance, unknowns, knowns, seed, sensitivity)?;
             finite(&instance.simulation, of, sensitivity)
         })
     })

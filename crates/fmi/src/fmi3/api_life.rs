@@ -11,7 +11,7 @@ use super::types::{
     LogMessageCallback, PreemptionCallback, Status, ValueReference,
 };
 use crate::c_interface::{Logger, uri};
-use crate::instance::{Addressing, Clock, IntermediateUpdates, Mode};
+use crate::instance::{Addressing, Clock, IntermediateUpdates, Listing, Mode};
 use crate::instantiation::{Refusal, text};
 use crate::resources::SharedModel;
 use crate::{boundary, instance, instantiation};
@@ -59,7 +59,8 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
             // SAFETY: this function's contract.
             let required = unsafe { references(requiredIntermediateVariables, nRequiredIntermediateVariables)? };
             let early_return = earlyReturnAllowed != FALSE;
-            arrange(instance, required, intermediateUpdate, instanceEnvironment, early_return)
+            let scalars = is_marked(path, instantiation::SCALARS);
+            arrange(instance, required, intermediateUpdate, instanceEnvironment, (early_return, scalars))
         },
     )
 }
@@ -70,6 +71,12 @@ fn model(token: Option<&CStr>, path: Option<&CStr>) -> Result<SharedModel, Refus
         "resourcePath is NULL: pass the path of the unpacked directory \"resources\", which this FMU reads",
     ))?;
     instantiation::model("instantiation token", token, uri::plain_path(path.to_bytes())?)
+}
+
+/// Whether the resources at a path are marked by a word.
+fn is_marked(path: Option<&CStr>, word: &str) -> bool {
+    let directory = path.and_then(|path| uri::plain_path(path.to_bytes()).ok());
+    directory.is_some_and(|directory| instantiation::is_marked(&directory, word))
 }
 
 /// # Safety
@@ -91,9 +98,9 @@ fn arrange(
     required: &[ValueReference],
     callback: Option<IntermediateUpdateCallback>,
     environment: InstanceEnvironment,
-    early_return: bool,
+    (early_return, scalars): (bool, bool),
 ) -> Result<(), Refusal> {
-    let addressing = Addressing::of(&instance.simulation);
+    let addressing = Addressing::of(&instance.simulation, Listing { exchange: false, scalars });
     let is_possible = |reference: &&u32| addressing.is_intermediate(&instance.simulation, **reference);
     if let Some(&impossible) = required.iter().find(|reference| !is_possible(reference)) {
         return Err(Refusal::NotIntermediate(impossible));
@@ -117,23 +124,43 @@ fn arrange(
     Ok(())
 }
 
-/// `fmi3InstantiateModelExchange`: NULL after a line to the logger, for this FMU is for co-simulation.
+/// `fmi3InstantiateModelExchange`: a new instance, or NULL after a line to the logger, also where the FMU is for
+/// co-simulation alone.
 ///
 /// # Safety
-/// Pointers are null or as FMI 3.0 describes them.
+/// Pointers are null or as FMI 3.0 describes them: strings end in NUL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     instanceName: FmiString,
-    _instantiationToken: FmiString,
-    _resourcePath: FmiString,
+    instantiationToken: FmiString,
+    resourcePath: FmiString,
     _visible: Bool,
     loggingOn: Bool,
     instanceEnvironment: InstanceEnvironment,
     logMessage: Option<LogMessageCallback>,
 ) -> Instance {
-    // SAFETY: this function's contract.
-    unsafe { refuse("fmi3InstantiateModelExchange", instanceName, instanceEnvironment, logMessage, loggingOn) }
+    // SAFETY: null or ended by NUL, by this function's contract.
+    let [name, token, path] = unsafe { [text(instanceName), text(instantiationToken), text(resourcePath)] };
+    instantiation::instantiate(
+        "fmi3InstantiateModelExchange",
+        name,
+        |name| Some(Logger::plain(logMessage, instanceEnvironment, name, loggingOn != FALSE)),
+        || {
+            if !is_marked(path, instantiation::MODEL_EXCHANGE) {
+                return Err(Refusal::NotProvided(CO_SIMULATION));
+            }
+            model(token, path)
+        },
+        |instance| {
+            instance.exchange = true;
+            let scalars = is_marked(path, instantiation::SCALARS);
+            instance.addressing = Some(Addressing::of(&instance.simulation, Listing { exchange: true, scalars }));
+            Ok(())
+        },
+    )
 }
+
+const CO_SIMULATION: &str = "is for co-simulation: use fmi3InstantiateCoSimulation";
 
 /// `fmi3InstantiateScheduledExecution`: NULL after a line to the logger, for this FMU is for co-simulation.
 ///
@@ -168,8 +195,7 @@ unsafe fn refuse(
     // SAFETY: this function's contract.
     let name = unsafe { text(name) };
     let logger = |name| Some(Logger::plain(callback, environment, name, on != FALSE));
-    let why = "is for co-simulation: use fmi3InstantiateCoSimulation";
-    instantiation::instantiate(function, name, logger, || Err(Refusal::NotProvided(why)), |_| Ok(()))
+    instantiation::instantiate(function, name, logger, || Err(Refusal::NotProvided(CO_SIMULATION)), |_| Ok(()))
 }
 
 /// `fmi3FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.

@@ -4,11 +4,10 @@
 #![allow(non_snake_case)]
 
 use super::functions::ALWAYS;
-use super::types::{Bool, Instance, IntervalQualifier, Status, ValueReference};
+use super::types::{Instance, IntervalQualifier, Status, ValueReference};
 use crate::boundary;
 use crate::instance::{Failure, Function, Version};
 
-const MODEL_EXCHANGE: &str = "is for co-simulation: step it with fmi3DoStep";
 const EVENTS: &str = "has no event mode: modelDescription.xml says so with hasEventMode=\"false\"";
 const STRUCTURE: &str = "has no structural parameters";
 const CLOCKS: &str = "has no clocks";
@@ -31,22 +30,9 @@ macro_rules! not_provided {
 type References = *const ValueReference;
 
 not_provided! {
-    MODEL_EXCHANGE:
-        fmi3EnterContinuousTimeMode()
-        fmi3CompletedIntegratorStep(Bool, *mut Bool, *mut Bool)
-        fmi3SetTime(f64)
-        fmi3SetContinuousStates(*const f64, usize)
-        fmi3GetContinuousStateDerivatives(*mut f64, usize)
-        fmi3GetEventIndicators(*mut f64, usize)
-        fmi3GetContinuousStates(*mut f64, usize)
-        fmi3GetNominalsOfContinuousStates(*mut f64, usize)
-        fmi3GetNumberOfEventIndicators(*mut usize)
-        fmi3GetNumberOfContinuousStates(*mut usize);
     EVENTS:
-        fmi3EnterEventMode()
         fmi3EnterStepMode()
-        fmi3EvaluateDiscreteStates()
-        fmi3UpdateDiscreteStates(*mut Bool, *mut Bool, *mut Bool, *mut Bool, *mut Bool, *mut f64);
+        fmi3EvaluateDiscreteStates();
     STRUCTURE:
         fmi3EnterConfigurationMode()
         fmi3ExitConfigurationMode();

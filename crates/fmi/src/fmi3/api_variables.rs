@@ -7,7 +7,7 @@
 
 use super::functions;
 use super::types::{Binary, Bool, FmiString, Instance, Status, ValueReference};
-use super::values::{self, check_kind, check_scalars, may_read, may_set, wrong_type};
+use super::values::{self, addressing, check_kind, check_scalars, may_read, may_set, wrong_type};
 use crate::instance::{self, Failure};
 use crate::variables::{Array, get, get_strings, none, set, set_strings};
 use brinell::simulation::VariableError;
@@ -43,22 +43,31 @@ functions! {
         may_read(instance, references)?;
         values::read(instance, references, values)
     };
-    /// `fmi3GetInt64`: enumerations.
+    /// `fmi3GetInt64`: enumerations, and in an FMU without arrays counters.
     get fmi3GetInt64(*mut i64) GET_INT64 |instance, references, values| {
         may_read(instance, references)?;
-        check_kind(instance, references, "Int64", is_enumeration)?;
+        let signed = addressing(instance)?.counts_signed();
+        check_kind(instance, references, "Int64", if signed { is_whole } else { is_enumeration })?;
         check_scalars(instance, references, values.len())?;
         for (value, reference) in values.iter_mut().zip(references) {
-            let mut number = [0];
-            instance.simulation.integers(std::slice::from_ref(reference), &mut number)?;
-            *value = number[0].into();
+            let reference = std::slice::from_ref(reference);
+            if check_kind(instance, reference, "Int64", is_counter).is_ok() {
+                let mut count = [0];
+                instance.simulation.counts(reference, &mut count)?;
+                *value = i64::try_from(count[0]).unwrap_or(i64::MAX);
+            } else {
+                let mut number = [0];
+                instance.simulation.integers(reference, &mut number)?;
+                *value = number[0].into();
+            }
         }
         Ok(())
     };
     /// `fmi3GetUInt64`: counters.
     get fmi3GetUInt64(*mut u64) GET_UINT64 |instance, references, values| {
         may_read(instance, references)?;
-        check_kind(instance, references, "UInt64", is_counter)?;
+        let signed = addressing(instance)?.counts_signed();
+        check_kind(instance, references, "UInt64", if signed { is_none } else { is_counter })?;
         check_scalars(instance, references, values.len())?;
         Ok(instance.simulation.counts(references, values)?)
     };
@@ -163,6 +172,14 @@ fn is_enumeration(kind: &Kind) -> bool {
 
 fn is_counter(kind: &Kind) -> bool {
     *kind == Kind::Integer
+}
+
+fn is_whole(kind: &Kind) -> bool {
+    is_enumeration(kind) || is_counter(kind)
+}
+
+fn is_none(_: &Kind) -> bool {
+    false
 }
 
 fn is_text(kind: &Kind) -> bool {

@@ -1,15 +1,19 @@
-//! In which modes each function of FMI 3.0 may be called: a transcription of sections 2.3 and 4.2 of FMI 3.0.2 for
-//! co-simulation without events. Functions that make an instance, and `fmi3GetVersion`, have no row; those that are not
+//! In which modes each function of FMI 3.0 may be called: a transcription of sections 2.3, 3.2 and 4.2 of FMI 3.0.2 for
+//! model exchange, but for the functions of that alone, and for co-simulation without events. Functions that make an instance, and `fmi3GetVersion`, have no row; those that are not
 //! provided fail in every mode.
 
-use crate::instance::Mode::{Error, Initialization, Instantiated, IntermediateUpdate, StepComplete, Terminated};
+use crate::instance::Mode::{
+    ContinuousTime, Error, Event, Initialization, Instantiated, IntermediateUpdate, StepComplete, Terminated,
+};
 use crate::instance::{Function, Modes, Version, modes};
 
 /// Every mode but inside a step.
-pub(super) const ALWAYS: Modes = modes([Instantiated, Initialization, StepComplete, Terminated, Error]);
-const READ: Modes = modes([Instantiated, Initialization, StepComplete, IntermediateUpdate, Terminated, Error]);
-const WRITE: Modes = modes([Instantiated, Initialization, StepComplete, IntermediateUpdate]);
-const DERIVE: Modes = modes([Initialization, StepComplete, Terminated, Error]);
+pub(super) const ALWAYS: Modes =
+    modes([Instantiated, Initialization, StepComplete, Event, ContinuousTime, Terminated, Error]);
+const READ: Modes =
+    modes([Instantiated, Initialization, StepComplete, IntermediateUpdate, Event, ContinuousTime, Terminated, Error]);
+const WRITE: Modes = modes([Instantiated, Initialization, StepComplete, IntermediateUpdate, Event, ContinuousTime]);
+const DERIVE: Modes = modes([Initialization, StepComplete, Event, ContinuousTime, Terminated, Error]);
 
 macro_rules! functions {
     ($($row:ident $name:literal $allowed:expr;)*) => {
@@ -25,7 +29,7 @@ functions! {
     FREE_INSTANCE               "fmi3FreeInstance"                      ALWAYS;
     ENTER_INITIALIZATION_MODE   "fmi3EnterInitializationMode"           modes([Instantiated]);
     EXIT_INITIALIZATION_MODE    "fmi3ExitInitializationMode"            modes([Initialization]);
-    TERMINATE                   "fmi3Terminate"                         modes([StepComplete]);
+    TERMINATE                   "fmi3Terminate"                         modes([StepComplete, Event, ContinuousTime]);
     RESET                       "fmi3Reset"                             ALWAYS;
     GET_FLOAT64                 "fmi3GetFloat64"                        READ;
     GET_INT64                   "fmi3GetInt64"                          READ;

@@ -1,6 +1,6 @@
 //! How scalars and arrays are read and set: all of a call's variables or none.
 
-use crate::instance::{Addressing, Failure, Instance, Mode, ValueCount, finite};
+use crate::instance::{Addressing, Failure, Instance, Mode, ValueCount, exchange, finite};
 use brinell::simulation::VariableError;
 use brinell::simulation::interface::table::Kind;
 
@@ -64,7 +64,9 @@ pub(super) fn read(instance: &mut Instance, references: &[u32], values: &mut [f6
     for reference in references {
         let rows = addressing.rows(reference)?;
         let (of_this, later) = rest.split_at_mut(rows.len().max(1));
-        if rows.is_empty() {
+        if addressing.is_exchanged(*reference) {
+            of_this.fill(exchange::value(simulation, *reference)?);
+        } else if rows.is_empty() {
             of_this.fill(clock.map_or(simulation.time(), |clock| clock.time));
         } else {
             simulation.reals(rows, of_this)?;
@@ -135,6 +137,9 @@ pub(super) fn expand(
     for reference in references {
         if addressing.is_time(*reference) {
             return Err(VariableError::NotAnUnknown { name: "time".to_owned() }.into());
+        }
+        if addressing.is_exchanged(*reference) {
+            rows.push(*reference);
         }
         rows.extend_from_slice(addressing.rows(reference)?);
     }

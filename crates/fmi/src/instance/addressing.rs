@@ -41,12 +41,24 @@ pub(crate) struct ValueCount {
 pub(crate) struct Addressing {
     kinds: Vec<Kind>,
     arrays: Vec<ElementArray>,
+    /// Number of variables behind the time: those of model exchange.
+    exchanged: usize,
+    scalars: bool,
+}
+
+/// Which variables the FMU lists beyond, or in place of, those of the table.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Listing {
+    /// Those of model exchange as well.
+    pub(crate) exchange: bool,
+    /// No arrays, and counters as Int64.
+    pub(crate) scalars: bool,
 }
 
 impl Addressing {
     /// That of a model.
-    pub(crate) fn of(simulation: &Simulation) -> Self {
-        let arrays = simulation.arrays();
+    pub(crate) fn of(simulation: &Simulation, Listing { exchange, scalars }: Listing) -> Self {
+        let arrays = if scalars { Vec::new() } else { simulation.arrays() };
         let mut kinds = vec![Kind::Scalar; simulation.table().len()];
         for (number, array) in (0..).zip(&arrays) {
             for &row in &array.rows {
@@ -56,7 +68,14 @@ impl Addressing {
                 kinds[first as usize] = Kind::Array(number);
             }
         }
-        Self { kinds, arrays }
+        let states = simulation.continuous_state_count();
+        let exchanged = if exchange { 2 * states + simulation.event_indicator_count() } else { 0 };
+        Self { kinds, arrays, exchanged, scalars }
+    }
+
+    /// Whether counters are Int64, as enumerations are.
+    pub(crate) fn counts_signed(&self) -> bool {
+        self.scalars
     }
 
     /// Whether a reference is the time's.
@@ -65,13 +84,20 @@ impl Addressing {
         reference as usize == self.kinds.len()
     }
 
+    /// Whether a reference is that of a variable of model exchange.
+    #[inline]
+    pub(crate) fn is_exchanged(&self, reference: u32) -> bool {
+        let behind = (reference as usize).checked_sub(self.kinds.len() + 1);
+        behind.is_some_and(|number| number < self.exchanged)
+    }
+
     /// Whether all are scalars of the table.
     #[inline]
     pub(crate) fn are_scalars(&self, references: &[u32]) -> bool {
         references.iter().all(|&reference| self.kinds.get(reference as usize) == Some(&Kind::Scalar))
     }
 
-    /// The rows behind a reference; none behind the time.
+    /// The rows behind a reference; none behind the time and what model exchange adds.
     ///
     /// # Errors
     /// A reference of nothing.
@@ -79,7 +105,7 @@ impl Addressing {
         match self.kinds.get(*reference as usize) {
             Some(Kind::Scalar) => Ok(std::slice::from_ref(reference)),
             Some(Kind::Array(number)) => Ok(&self.arrays[usize::from(*number)].rows),
-            None if self.is_time(*reference) => Ok(&[]),
+            None if self.is_time(*reference) || self.is_exchanged(*reference) => Ok(&[]),
             _ => Err(Failure::UnknownReference(*reference)),
         }
     }
@@ -105,6 +131,10 @@ impl Addressing {
         match (row, self.kinds.get(reference as usize)) {
             (Some(row), Some(Kind::Array(_))) => of_all_elements(row).0,
             (Some(row), _) => row.name.clone(),
+            (None, _) if self.is_exchanged(reference) => {
+                let mut all = simulation.exchange_variables().into_iter();
+                all.find(|variable| variable.reference == reference).map(|variable| variable.name).unwrap_or_default()
+            }
             (None, _) => "time".to_owned(),
         }
     }

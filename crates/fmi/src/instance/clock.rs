@@ -49,6 +49,9 @@ pub(crate) enum ClockError {
     /// Not a number, or infinite.
     #[error("start time {0:?} s: it must be finite")]
     Start(f64),
+    /// Not a number, or infinite.
+    #[error("time {0:?} s: it must be finite")]
+    Time(f64),
     /// Not a number, infinite, or not after the start.
     #[error("stop time {stop:?} s: it must be finite and after the start time {start:?} s")]
     Stop {
@@ -105,6 +108,15 @@ impl Clock {
             Some(stop) if !(stop.is_finite() && stop > start) => Err(ClockError::Stop { stop, start }),
             _ => Ok(Self { start, stop, time: start, last: 0.0, drift: 0.0, rounded: 0.0 }),
         }
+    }
+
+    /// Goes to a time that somebody else's integrator tries.
+    pub(crate) fn move_to(&mut self, time: f64) -> Result<(), ClockError> {
+        if !time.is_finite() {
+            return Err(ClockError::Time(time));
+        }
+        self.time = time;
+        Ok(())
     }
 
     /// The clock at the end of a step that the host asks for.

@@ -51,6 +51,17 @@ pub(crate) enum Failure {
     /// A function of the other kind of FMU.
     #[error("this FMU is for co-simulation: step it with fmi2DoStep")]
     ModelExchange,
+    /// A recording where somebody else integrates.
+    #[error(
+        "recorder.folder is set: the recorder samples inside steps of the FMU's own; use the FMU for co-simulation"
+    )]
+    NoRecorder,
+    /// A state of the other kind.
+    #[error("the FMU state is one of the other kind: model exchange and co-simulation do not share states")]
+    OtherKind,
+    /// A state that an integrator tries.
+    #[error("{0}: take a shorter step")]
+    Trial(String),
     /// A function that belongs to a capability which is not declared.
     #[error("this FMU {0}")]
     NotProvided(&'static str),
@@ -182,6 +193,7 @@ impl Failure {
         match self {
             Failure::UnknownCategory(_) | Failure::Unstored { .. } => Status::Warning,
             Failure::UnknownStatus(_)
+            | Failure::Trial(_)
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(
                 SimulationError::NoDerivative

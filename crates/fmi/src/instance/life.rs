@@ -36,6 +36,8 @@ pub(crate) struct Instance {
     pub(crate) model: SharedModel,
     /// States that the host has saved.
     pub(crate) snapshots: Snapshots,
+    /// Whether it is for model exchange.
+    pub(crate) exchange: bool,
     /// What references stand for in FMI 3.0; `None` in FMI 2.0, where each is a row of the table.
     pub(crate) addressing: Option<Addressing>,
     /// What the host wants of intermediate updates; `None` if nothing.
@@ -62,6 +64,7 @@ impl Instance {
             logger,
             model,
             snapshots: Snapshots::default(),
+            exchange: false,
             addressing: None,
             updates: None,
             rows: Vec::new(),
@@ -86,6 +89,9 @@ impl Instance {
 
     /// Finds the static equilibrium and begins the recording, if there is to be one.
     pub(crate) fn initialize(&mut self, start: f64) -> Result<(), Failure> {
+        if self.exchange && self.simulation.recorder().is_some() {
+            return Err(Failure::NoRecorder);
+        }
         self.simulation.initialize(start)?;
         self.begin_recording()
     }
@@ -215,6 +221,14 @@ impl Instance {
             self.simulation.record_into(folder.as_deref().unwrap_or_default());
         }
         let snapshot = self.snapshots.get(handle)?;
+        let of_other_kind = match snapshot.mode {
+            Mode::Event | Mode::ContinuousTime => !self.exchange,
+            Mode::StepComplete => self.exchange,
+            _ => false,
+        };
+        if of_other_kind {
+            return Err(Failure::OtherKind);
+        }
         self.simulation.restore(&snapshot.simulation)?;
         self.mode = snapshot.mode;
         self.clock = snapshot.clock;

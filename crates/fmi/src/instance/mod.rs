@@ -3,6 +3,7 @@
 mod addressing;
 pub(crate) mod blob;
 mod clock;
+pub(crate) mod exchange;
 mod failure;
 pub(crate) mod handles;
 mod intermediate_updates;
@@ -11,8 +12,9 @@ mod mode;
 mod snapshot;
 pub(crate) mod snapshots;
 
-pub(crate) use addressing::{Addressing, ValueCount};
+pub(crate) use addressing::{Addressing, Listing, ValueCount};
 pub(crate) use clock::Clock;
+pub(crate) use exchange::PerItem;
 pub(crate) use failure::Failure;
 pub(crate) use handles::{Borrowed, GivenUp};
 pub(crate) use intermediate_updates::IntermediateUpdates;

@@ -25,15 +25,21 @@ pub(crate) enum Mode {
     Error = 16,
     /// Inside a step, while the host is told how far it has come.
     IntermediateUpdate = 32,
+    /// Model exchange: at an event.
+    Event = 64,
+    /// Model exchange: between events.
+    ContinuousTime = 128,
 }
 
 impl Mode {
     /// All modes, in the order of a run.
-    pub(super) const ALL: [Mode; 6] = [
+    pub(super) const ALL: [Mode; 8] = [
         Mode::Instantiated,
         Mode::Initialization,
         Mode::StepComplete,
         Mode::IntermediateUpdate,
+        Mode::Event,
+        Mode::ContinuousTime,
         Mode::Terminated,
         Mode::Error,
     ];
@@ -51,6 +57,8 @@ impl Mode {
             Mode::StepComplete if version == Version::Fmi3 => "step mode",
             Mode::StepComplete => "step complete",
             Mode::IntermediateUpdate => "intermediate update mode",
+            Mode::Event => "event mode",
+            Mode::ContinuousTime => "continuous-time mode",
             Mode::Terminated => "terminated",
             Mode::Error => "error",
         }

@@ -1,5 +1,6 @@
 //! The XML files of an FMU, made from the variable table.
 
+mod exchange;
 mod model_description;
 mod terminals;
 pub mod units;

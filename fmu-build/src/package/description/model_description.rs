@@ -14,25 +14,33 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::Result;
 use brinell::simulation::Simulation;
+use brinell::simulation::exchange::{ExchangeRole, ExchangeVariable};
 use brinell::simulation::interface::Category;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variability, Variable};
 use brinell::simulation::interface::{ElementArray, of_all_elements};
 use minijinja::{Value, context};
 
-use super::units;
+use super::{exchange, units};
 use crate::package::model::Model;
 use crate::package::render;
-use crate::shared::Version;
+use crate::shared::{Interface, Names, Version};
 
 /// The model description of a scene.
 ///
 /// # Errors
 /// Of its template.
-pub fn model_description(model: &Model, version: Version) -> Result<String> {
+pub fn model_description(model: &Model, interface: impl Into<Interface>) -> Result<String> {
+    let interface = interface.into();
+    let version = interface.version;
     let scene = &model.scene;
     let table = model.simulation.table();
     let prefix = if version == Version::Fmi2 { "fmi2" } else { "fmi3" };
     let categories = Category::LIST.map(|category| (category.name(), category.description(prefix)));
+    let exchanged = if interface.exchanges() { model.simulation.exchange_variables() } else { Vec::new() };
+    let mut variables: Vec<Value> =
+        listed(&model.simulation, interface).iter().map(|row| variable(row, interface)).collect();
+    variables.extend(exchange::variables(&exchanged, interface));
+    let indicators = exchanged.iter().filter(|row| matches!(row.role, ExchangeRole::Indicator(_))).count();
     let values = context! {
         fmi2 => version == Version::Fmi2,
         fmi => version.number(),
@@ -42,15 +50,19 @@ pub fn model_description(model: &Model, version: Version) -> Result<String> {
         program => env!("CARGO_PKG_VERSION"),
         license => env!("CARGO_PKG_LICENSE"),
         identifier => scene.model_identifier(),
-        units => unit_definitions(table),
+        units => unit_definitions(table, &exchanged),
+        flat => interface.names == Names::Flat,
+        exchanges => interface.exchanges(),
+        steps => interface.steps(),
+        indicators,
         enumerations => enumerations(table),
         categories => categories.to_vec(),
         stop => number(scene.experiment.stop),
         tolerance => number(scene.tolerance),
         step => number(scene.experiment.step),
         time => table.len(),
-        variables => listed(&model.simulation, version).iter().map(|row| variable(row, version)).collect::<Vec<_>>(),
-        structure => structure(&model.simulation, version),
+        variables,
+        structure => structure(&model.simulation, &exchanged, interface),
     };
     render("modelDescription.xml", include_str!("../../../assets/modelDescription.xml"), values)
 }
@@ -61,12 +73,13 @@ fn number(value: f64) -> String {
 }
 
 /// Every unit that is used, by its base units.
-fn unit_definitions(table: &[Variable]) -> Vec<Value> {
+fn unit_definitions(table: &[Variable], exchanged: &[ExchangeVariable]) -> Vec<Value> {
     let unit = |variable: &Variable| match variable.kind {
         Kind::Real { unit, .. } => Some(unit),
         _ => None,
     };
-    let used: BTreeSet<Unit> = table.iter().filter_map(unit).collect();
+    let used: BTreeSet<Unit> =
+        table.iter().filter_map(unit).chain(exchanged.iter().map(|variable| variable.unit)).collect();
     let definition = |unit| {
         let exponents: Vec<_> = units::base_units(unit).into_iter().filter(|(_, exponent)| *exponent != 0).collect();
         let shown = units::display_unit(unit).map(|shown| (shown.name, number(shown.factor)));
@@ -94,19 +107,21 @@ pub(crate) struct Listed {
 }
 
 /// The variables as the version has them.
-pub(crate) fn listed(simulation: &Simulation, version: Version) -> Vec<Listed> {
+pub(crate) fn listed(simulation: &Simulation, interface: Interface) -> Vec<Listed> {
     let table = simulation.table().iter();
-    if version == Version::Fmi2 {
-        return table.map(|row| Listed { variable: row.clone(), elements: None }).collect();
+    let named = |row: &Variable| Variable { name: interface.shown(&row.name), ..row.clone() };
+    if interface.version == Version::Fmi2 {
+        return table.map(|row| Listed { variable: named(row), elements: None }).collect();
     }
-    let arrays = simulation.arrays();
+    let arrays = if interface.scalars { Vec::new() } else { simulation.arrays() };
     let shown = |row: &Variable| match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
         None => {
-            let variable = Variable { description: row.meaning().to_owned(), ..row.clone() };
+            let variable = Variable { description: row.meaning().to_owned(), ..named(row) };
             Some(Listed { variable, elements: None })
         }
         Some(array) if array.rows[0] == row.reference => {
             let (name, description) = of_all_elements(row);
+            let name = interface.shown(&name);
             Some(Listed { variable: Variable { name, description, ..row.clone() }, elements: Some(array.rows.len()) })
         }
         Some(_) => None,
@@ -114,9 +129,9 @@ pub(crate) fn listed(simulation: &Simulation, version: Version) -> Vec<Listed> {
     table.filter_map(shown).collect()
 }
 
-fn variable(listed: &Listed, version: Version) -> Value {
+fn variable(listed: &Listed, interface: Interface) -> Value {
     let Listed { variable, elements } = listed;
-    let (fmi2, mut attributes, mut text) = (version == Version::Fmi2, Vec::new(), None);
+    let (fmi2, mut attributes, mut text) = (interface.version == Version::Fmi2, Vec::new(), None);
     match &variable.kind {
         Kind::Real { unit, start, min, max, nominal } => {
             attributes.push(("unit", units::name(*unit).to_owned()));
@@ -137,7 +152,8 @@ fn variable(listed: &Listed, version: Version) -> Value {
     context! {
         type => match &variable.kind {
             Kind::Real { .. } => if fmi2 { "Real" } else { "Float64" },
-            Kind::Integer => if fmi2 { "Integer" } else { "UInt64" },
+            Kind::Integer if fmi2 => "Integer",
+            Kind::Integer => if interface.scalars { "Int64" } else { "UInt64" },
             Kind::Enumeration { .. } => "Enumeration",
             Kind::Text { .. } => "String",
         },
@@ -164,20 +180,37 @@ fn variable(listed: &Listed, version: Version) -> Value {
 }
 
 /// Outputs and initial unknowns, each with what it depends on.
-fn structure(simulation: &Simulation, version: Version) -> [Value; 2] {
+fn structure(simulation: &Simulation, exchanged: &[ExchangeVariable], interface: Interface) -> Vec<Value> {
+    let version = interface.version;
     let outputs = match version {
         Version::Fmi2 => simulation.dependencies(),
+        Version::Fmi3 if interface.scalars => simulation.dependencies(),
         Version::Fmi3 => merged(&simulation.dependencies(), &simulation.arrays()),
     };
     // The structure of FMI 2.0 counts variables from 1, the table from 0.
     let first = u32::from(version == Version::Fmi2);
-    let unknown = |output: &Dependencies, known: &[u32]| {
-        let references: Vec<String> = known.iter().map(|reference| (reference + first).to_string()).collect();
-        (output.output + first, references.join(" "), vec!["dependent"; references.len()].join(" "))
+    let unknown = |output: &Dependencies, known: &[u32], more: &[u32]| {
+        let mut references: Vec<String> = known.iter().map(|reference| (reference + first).to_string()).collect();
+        references.extend(more.iter().map(u32::to_string));
+        (output.output + first, Some(references.join(" ")), vec!["dependent"; references.len()].join(" "))
     };
-    let direct: Vec<_> = outputs.iter().map(|output| unknown(output, &output.direct)).collect();
-    let initial: Vec<_> = outputs.iter().map(|output| unknown(output, &output.initial)).collect();
-    [context! { name => "Output", unknowns => direct }, context! { name => "InitialUnknown", unknowns => initial }]
+    // Whatever an output shows may follow from any state.
+    let states = exchange::references(exchanged, |role| matches!(role, ExchangeRole::State(_)));
+    let direct: Vec<_> = outputs.iter().map(|output| unknown(output, &output.direct, &states)).collect();
+    let mut initial: Vec<_> = outputs.iter().map(|output| unknown(output, &output.initial, &[])).collect();
+    initial.extend(exchange::unknowns(exchanged, |role| !matches!(role, ExchangeRole::Indicator(_))));
+    let mut lists = vec![context! { name => "Output", unknowns => direct }];
+    if interface.exchanges() {
+        let name = if version == Version::Fmi2 { "Derivative" } else { "ContinuousStateDerivative" };
+        let unknowns = exchange::unknowns(exchanged, |role| matches!(role, ExchangeRole::Derivative(_)));
+        lists.push(context! { name, unknowns });
+    }
+    lists.push(context! { name => "InitialUnknown", unknowns => initial });
+    if interface.exchanges() && version == Version::Fmi3 {
+        let unknowns = exchange::unknowns(exchanged, |role| matches!(role, ExchangeRole::Indicator(_)));
+        lists.push(context! { name => "EventIndicator", unknowns });
+    }
+    lists
 }
 
 /// One entry for each variable: an array depends on whatever one of its elements depends on.

@@ -5,11 +5,11 @@ use brinell::simulation::interface::table::{Causality, Kind};
 use minijinja::{Value, context};
 
 use crate::package::description::{Listed, causality, listed, units};
-use crate::shared::Version;
+use crate::shared::Interface;
 
 /// The variables of each kind that there are.
-pub(super) fn variables(simulation: &Simulation, version: Version) -> Vec<Value> {
-    let table = listed(simulation, version);
+pub(super) fn variables(simulation: &Simulation, interface: Interface) -> Vec<Value> {
+    let table = listed(simulation, interface);
     let kinds = [
         (Causality::Input, "Inputs"),
         (Causality::Parameter, "Parameters, fixed after initialization"),

@@ -7,7 +7,7 @@
 //! way and no other; the one it has just passed does not count again unless it comes back.
 
 use super::knots::Contact;
-use crate::dynamics::parameters::{Ahead, Defects, FramedKinematics, LeadPieces};
+use crate::dynamics::parameters::{Ahead, Cells, Defects, FramedKinematics, LeadPieces, Model};
 use crate::simulation::integration::kernels::probe;
 use crate::simulation::integration::progress::Progress;
 use crate::simulation::integration::workspace::{Problem, Span, Workspace};
@@ -30,11 +30,11 @@ pub(in crate::simulation) struct Crossing {
 
 /// A contact that defects concern.
 #[derive(Clone, Copy)]
-struct Watched<'a> {
-    defects: &'a Defects,
-    element: usize,
-    cell: u32,
-    contact: Contact,
+pub(in crate::simulation) struct Watched<'a> {
+    pub(in crate::simulation) defects: &'a Defects,
+    pub(in crate::simulation) element: usize,
+    pub(in crate::simulation) cell: u32,
+    pub(in crate::simulation) contact: Contact,
 }
 
 /// A contact at the start of the step.
@@ -74,10 +74,10 @@ pub(in crate::simulation) fn first_crossing(
         paths: state,
     });
     let mut first: Option<Candidate> = None;
-    for at in watched(problem, progress) {
+    for at in watched(model, &progress.cells, model.is_uneven()) {
         let frame = start.now.frames.of(at.defects.frame).angle;
         let direction = start.now.cage.angle + model.element_offset(at.element);
-        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, &at, pieces) };
+        let begun = Begun { at, tau: start.tau, lead: start.lead(model, &at, pieces) };
         let travel = begun.travel(problem, &end, pieces);
         let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction + begun.lead - frame, travel > 0.0)
         else {
@@ -133,16 +133,19 @@ struct Instant<'a> {
     paths: &'a [f64],
 }
 
-/// All contacts with the inner raceway that may meet a defect; in an uneven cage those with the outer one as well.
-fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<Item = Watched<'a>> {
-    let (model, cells) = (problem.model, &progress.cells);
+/// All contacts with the inner raceway that may meet a defect; with those with the outer one, if `outside`.
+pub(in crate::simulation) fn watched<'a>(
+    model: &'a Model,
+    cells: &'a Cells,
+    outside: bool,
+) -> impl Iterator<Item = Watched<'a>> {
     let inner = &model.inner.defects;
     let of_ring = cells.inner.iter().enumerate().filter(|_| !inner.is_empty());
     let of_ring = of_ring.map(|(j, &cell)| Watched { defects: inner, element: j, cell, contact: Contact::Inner(j) });
     let outer = &model.outer.defects;
-    let of_outer = cells.outer.iter().enumerate().filter(|_| model.is_uneven() && !outer.is_empty());
+    let of_outer = cells.outer.iter().enumerate().filter(move |_| outside && !outer.is_empty());
     let of_outer = of_outer.map(|(j, &cell)| Watched { defects: outer, element: j, cell, contact: Contact::Outer(j) });
-    let sides = if model.is_uneven() { 0..2 } else { 0..1 };
+    let sides = if outside { 0..2 } else { 0..1 };
     let own = model.defective.iter().zip(&cells.own).enumerate();
     let own = own.flat_map(move |(k, (defective, cells))| {
         sides.clone().map(move |side| Watched {
@@ -158,13 +161,24 @@ fn watched<'a>(problem: Problem<'a>, progress: &'a Progress) -> impl Iterator<It
 impl Instant<'_> {
     /// Angle by which a contact is seen ahead of its element's position in an even cage (rad): from the inner ring,
     /// and in an uneven cage.
-    fn lead(&self, problem: Problem, at: &Watched, pieces: &mut LeadPieces) -> f64 {
-        let (model, j) = (problem.model, at.element);
-        let of_cage = model.lead_with(j, self.now.cage_angle(), pieces);
-        match at.contact {
-            Contact::Inner(_) | Contact::Own(_, 0) => {
-                model.inner_lead(j, self.paths[j], &self.now, &of_cage) + of_cage.angle
-            }
+    fn lead(&self, model: &Model, at: &Watched, pieces: &mut LeadPieces) -> f64 {
+        at.lead(model, &self.now, self.paths, pieces)
+    }
+}
+
+impl Watched<'_> {
+    /// Angle by which it is seen ahead of its element's position in an even cage (rad), of elements at these paths.
+    pub(in crate::simulation) fn lead(
+        &self,
+        model: &Model,
+        now: &FramedKinematics,
+        paths: &[f64],
+        pieces: &mut LeadPieces,
+    ) -> f64 {
+        let j = self.element;
+        let of_cage = model.lead_with(j, now.cage_angle(), pieces);
+        match self.contact {
+            Contact::Inner(_) | Contact::Own(_, 0) => model.inner_lead(j, paths[j], now, &of_cage) + of_cage.angle,
             _ => of_cage.angle,
         }
     }
@@ -177,6 +191,6 @@ impl Begun<'_> {
         let (cage, frame) =
             (&problem.excitation.cage, &problem.excitation.frames[self.at.defects.frame as usize].since);
         let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
-        even + (to.lead(problem, &self.at, pieces) - self.lead)
+        even + (to.lead(problem.model, &self.at, pieces) - self.lead)
     }
 }

@@ -5,5 +5,5 @@ mod crossings;
 mod knots;
 
 pub(in crate::simulation) use contact_changes::first_change;
-pub(in crate::simulation) use crossings::{Crossing, first_crossing};
-pub(in crate::simulation) use knots::{Knot, Legs, next_knot};
+pub(in crate::simulation) use crossings::{Crossing, first_crossing, watched};
+pub(in crate::simulation) use knots::{Contact, Knot, Legs, next_knot};

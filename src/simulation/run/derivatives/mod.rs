@@ -168,7 +168,7 @@ impl Simulation {
     }
 
     /// Starts the change with that of the inputs alone.
-    fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
+    pub(in crate::simulation) fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {
@@ -219,7 +219,7 @@ impl Simulation {
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
     /// outer ring's `acceleration` is the present one (m/s²).
-    fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
+    pub(in crate::simulation) fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
         let excitation = self.excitation(false);
         let forces_now = &mut self.present.evaluation.forces;
         let progress = &self.run.state.progress;
@@ -284,7 +284,7 @@ impl Simulation {
     }
 
     /// What the change makes of one output.
-    fn changed(&self, quantity: Quantity) -> f64 {
+    pub(in crate::simulation) fn changed(&self, quantity: Quantity) -> f64 {
         let Change { variation, forces, .. } = &self.change;
         let ring = |name: RingName| match name {
             RingName::Shaft => (0, &variation.shaft, forces.shaft),

@@ -1,0 +1,149 @@
+//! Model Exchange: what both versions' functions for it do with an instance.
+
+use super::failure::Failure;
+use super::life::Instance;
+use super::mode::{Function, Mode, Modes, Version};
+use crate::c_interface::ValueReference;
+use brinell::simulation::{Simulation, SimulationError};
+
+/// Why not, in FMI 3.0.
+const ONLY_CO_SIMULATION: &str = "is for co-simulation: step it with fmi3DoStep";
+
+/// A list of the host's that has one place for each of something.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum PerItem {
+    States,
+    Derivatives,
+    Nominals,
+    Indicators,
+}
+
+impl Instance {
+    /// Refuses a function of Model Exchange in an instance for co-simulation, and out of the modes that it is for.
+    pub(crate) fn exchanges(&self, function: &'static Function, within: &'static Modes) -> Result<(), Failure> {
+        match (self.exchange, function.version) {
+            (false, Version::Fmi2) => Err(Failure::ModelExchange),
+            (false, Version::Fmi3) => Err(Failure::NotProvided(ONLY_CO_SIMULATION)),
+            (true, _) if within.contains(self.mode) => Ok(()),
+            (true, _) => Err(Failure::OutOfMode { mode: self.mode, function }),
+        }
+    }
+
+    /// Reads reals of the table and behind it.
+    #[inline]
+    pub(crate) fn reals(&mut self, references: &[ValueReference], values: &mut [f64]) -> Result<(), Failure> {
+        let rows = self.simulation.table().len();
+        if !self.exchange || references.iter().all(|&reference| (reference as usize) < rows) {
+            return Ok(self.simulation.reals(references, values)?);
+        }
+        for (value, &reference) in values.iter_mut().zip(references) {
+            if (reference as usize) < rows {
+                self.simulation.reals(&[reference], std::slice::from_mut(value))?;
+            } else {
+                *value = self::value(&mut self.simulation, reference)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fills one of the lists.
+    pub(crate) fn fill(&mut self, list: PerItem, values: &mut [f64]) -> Result<(), Failure> {
+        let needed = self.count_of(list);
+        if values.len() != needed {
+            return Err(Failure::ValueCount { name: "nx", given: values.len(), needed });
+        }
+        let simulation = &mut self.simulation;
+        match list {
+            PerItem::States => simulation.continuous_states(values)?,
+            PerItem::Derivatives => simulation.state_derivatives(values).map_err(in_a_trial)?,
+            PerItem::Indicators => simulation.event_indicators(values)?,
+            PerItem::Nominals => simulation.state_nominals(values),
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(Failure::Trial(format!("number {} of {list:?} is {}", index + 1, values[index]))),
+        }
+    }
+
+    /// Number of places in one of the lists.
+    pub(crate) fn count_of(&self, list: PerItem) -> usize {
+        match list {
+            PerItem::Indicators => self.simulation.event_indicator_count(),
+            PerItem::States | PerItem::Derivatives | PerItem::Nominals => self.simulation.continuous_state_count(),
+        }
+    }
+
+    /// Sets the continuous states.
+    pub(crate) fn set_states(&mut self, values: &[f64]) -> Result<(), Failure> {
+        let needed = self.count_of(PerItem::States);
+        if values.len() != needed {
+            return Err(Failure::ValueCount { name: "nx", given: values.len(), needed });
+        }
+        if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            return Err(Failure::Trial(format!("state number {} is {}", index + 1, values[index])));
+        }
+        self.simulation.set_continuous_states(values);
+        Ok(())
+    }
+
+    /// Sets the time.
+    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), Failure> {
+        let clock = self.clock.as_mut().ok_or(Failure::NotSetUp)?;
+        clock.move_to(time)?;
+        self.simulation.set_time(time);
+        Ok(())
+    }
+
+    /// Handles an event, after which nothing is left to be iterated.
+    pub(crate) fn handle_event(&mut self) -> Result<(), Failure> {
+        self.simulation.handle_event()?;
+        Ok(())
+    }
+
+    /// Products with the Jacobian, of variables of the table and behind it.
+    pub(crate) fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), Failure> {
+        if self.exchange && self.mode != Mode::Initialization {
+            return Ok(self.simulation.exchange_derivative(unknowns, knowns, seed, values)?);
+        }
+        Ok(self.simulation.directional_derivative(unknowns, knowns, seed, values)?)
+    }
+
+    /// The same from the left.
+    pub(crate) fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), Failure> {
+        if !self.exchange || self.mode == Mode::Initialization {
+            return Ok(self.simulation.adjoint_derivative(unknowns, knowns, seed, values)?);
+        }
+        let mut column = vec![0.0; unknowns.len()];
+        for (value, known) in values.iter_mut().zip(knowns) {
+            self.directional_derivative(unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
+            *value = column.iter().zip(seed).map(|(derivative, weight)| weight * derivative).sum();
+        }
+        Ok(())
+    }
+}
+
+/// Value of a variable behind the table.
+pub(crate) fn value(simulation: &mut Simulation, reference: ValueReference) -> Result<f64, Failure> {
+    let found = simulation.exchange_value(reference).map_err(in_a_trial)?;
+    found.ok_or(Failure::UnknownReference(reference))
+}
+
+/// A state without an answer is what an integrator tries and takes back.
+fn in_a_trial(error: SimulationError) -> Failure {
+    match error {
+        SimulationError::Step { cause, .. } => Failure::Trial(cause.to_string()),
+        other => other.into(),
+    }
+}
