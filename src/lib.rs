@@ -36,6 +36,10 @@ pub mod surface;
 
 pub use simulation::SimulationError as Error;
 
+#[cfg(doc)]
+#[doc = include_str!("../docs/explanation/theory.md")]
+pub mod theory {}
+
 /// The example in README.md compiles and runs.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -158,9 +158,9 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     path.set_ylabel("depth below the\nraceway (µm)")
     before = float(np.median(signals["path"][ms < 0])) * 1e6
     path.annotate(
-        f"{before:.0f} µm inside: so far the load\npresses ball and raceway flat",
-        (0.85 * ms[0], before),
-        xytext=(0.85 * ms[0], 3.4 * before),
+        f"{before:.0f} µm inside:\nso far the load\npresses both flat",
+        (0.9 * ms[0], before),
+        xytext=(0.94 * ms[0], 3.8 * before),
         arrowprops={"arrowstyle": "-", "linewidth": 0.7},
         fontsize=9,
     )

@@ -1,6 +1,7 @@
 //! The commands: what a user types, and the order of work behind each.
 
 mod options;
+mod shipped_options;
 
 use std::path::PathBuf;
 
@@ -11,7 +12,8 @@ use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes,
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Project, talk};
 use crate::{paper, run, sweep};
-use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Paper, Run, Scenes, Size, Sweep};
+use options::{Build, Check, Contact, Demo, OverCageAngle, Run, Size, Sweep};
+use shipped_options::{Catalogue, New, Paper, Scenes};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
 #[derive(Debug, Parser)]

@@ -14,8 +14,8 @@ use crate::shared::{Project, Python, csv, whole_file};
 /// A shipped scene.
 const SCENE: &str = "6205-epps";
 /// What a reader of the figure must know.
-const STAND_IN: &str = "the trace of the spall is a stand-in, 0.8 mm long as reported and rough as assumed: the measured \
-                        one was never published";
+const STAND_IN: &str = "the trace of the spall is a stand-in, 0.8 mm long as reported and rough as assumed: the \
+                        measured one was never published";
 /// Spacing of the profile that is drawn, and how far it goes beyond the defect (m).
 const SPACING: f64 = 1e-6;
 const MARGIN: f64 = 0.5e-3;

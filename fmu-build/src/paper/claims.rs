@@ -1,5 +1,5 @@
-//! What the paper claims, beside what comes out here. *Prototype*: an independent program with the same equations, where
-//! the paper has a curve and no figure.
+//! What the paper claims, beside what comes out here. *Prototype*: an independent program with the same equations,
+//! where the paper has a curve and no figure.
 
 use std::fmt::Write;
 

@@ -54,15 +54,23 @@ pub fn scene_text(path: &Path) -> Result<String> {
             bail!("{name}: neither a file nor a shipped scene; {}", meant(name));
         }
         if let Some(scene) = name.strip_suffix(".toml") {
-            let shipped = text(name).map(|_| format!("{scene} is a shipped scene: name it without .toml, or write its file here by `brinell scenes {scene}`"));
-            let near = || nearest(scenes(), scene).map(|near| format!("did you mean the shipped scene {near}?"));
-            bail!(
-                "{name}: no such file; {}",
-                shipped.or_else(near).unwrap_or_else(|| "`brinell scenes` lists those that are shipped".to_owned())
-            );
+            bail!("{name}: no such file; {}", missing(scene));
         }
     }
     fs::read_to_string(path).with_context(|| path.display().to_string())
+}
+
+/// What to do where the file of a scene is not there.
+fn missing(scene: &str) -> String {
+    if text(&format!("{scene}.toml")).is_some() {
+        return format!(
+            "{scene} is a shipped scene: name it without .toml, or write its file here by `brinell scenes {scene}`"
+        );
+    }
+    nearest(scenes(), scene).map_or_else(
+        || "`brinell scenes` lists those that are shipped".to_owned(),
+        |near| format!("did you mean the shipped scene {near}?"),
+    )
 }
 
 /// The text of a file that a scene names, beside the scene's own file or among the shipped ones.

@@ -57,13 +57,12 @@ fn prepare(page: &str, folder: &Path) {
         let made = "brinell run 6205-spall-5deg --stop 1 --step 0.01 --wav --wav-rate 51200 --no-figure \
                     && mv 6205-spall-5deg.wav recording.wav && rm -f 6205-spall-5deg*";
         assert!(typed(made, folder).status.success());
-        let script = "import numpy as np, scipy.io as io; from scipy.io import wavfile; \
-                      rate, x = wavfile.read('recording.wav'); np.save('recording.npy', x); \
-                      io.savemat('recording.mat', {'X130_DE_time': x})";
+        let script = "import os, sys\nimport numpy as np\nfrom scipy.io import savemat, wavfile\n\
+                      os.chdir(sys.argv[1])\nrate, x = wavfile.read('recording.wav')\nnp.save('recording.npy', x)\n\
+                      savemat('recording.mat', {'X130_DE_time': x})\n";
         fs::write(folder.join("made.py"), script).unwrap();
-        common::python().run_file(&folder.join("made.py"), [""; 0]).ok();
-        let output = typed("cd . && $(command -v python3 || echo python) made.py", folder);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+        common::python().run_file(&folder.join("made.py"), [folder]).unwrap_or_else(|error| panic!("{error:#}"));
+        fs::remove_file(folder.join("made.py")).unwrap();
     }
 }
 

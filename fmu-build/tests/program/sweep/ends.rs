@@ -57,11 +57,16 @@ fn a_sweep_that_is_interrupted_leaves_the_table_of_what_is_done_and_nothing_unde
 
 #[cfg(unix)]
 #[test]
-fn a_run_that_is_interrupted_leaves_nothing_temporary() {
+fn a_run_that_is_interrupted_leaves_the_table_of_what_was_simulated_and_nothing_temporary() {
     let folder = common::folder("run-interrupted");
     let mut run = Command::new(env!("CARGO_BIN_EXE_brinell"));
     run.args(["run", "6205-healthy", "--stop", "1000", "--no-figure", "-o"]).arg(&folder);
     let (told, status) = interrupted(run, || !names(&folder).is_empty());
-    assert_eq!((status, names(&folder)), (Some(130), Vec::new()), "{told}");
-    assert!(told.contains("interrupted"), "{told}");
+    assert_eq!((status, names(&folder)), (Some(130), vec!["6205-healthy.csv".to_owned()]), "{told}");
+    // Communication points are 0.1 ms apart.
+    let text = fs::read_to_string(folder.join("6205-healthy.csv")).unwrap();
+    let (rows, last) = (text.lines().count() - 1, text.lines().last().unwrap().split(',').next().unwrap());
+    let last: f64 = last.parse().unwrap();
+    assert!(text.starts_with("time [s],") && (last - 1e-4 * (rows - 1) as f64).abs() < 1e-9, "{rows} rows to {last} s");
+    assert!(told.contains("interrupted: ") && told.contains("holds what was simulated, up to"), "{told}");
 }

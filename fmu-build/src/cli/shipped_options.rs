@@ -1,0 +1,64 @@
+//! Options of commands about what the program brings along: the paper's parts, scenes, bearings.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::options::Drawn;
+use crate::commands::Spall;
+use crate::paper;
+
+/// Options of `paper`.
+#[derive(Debug, Args)]
+pub struct Paper {
+    /// Which of its parts
+    #[arg(value_enum)]
+    pub(super) part: paper::Part,
+    /// Print the claims as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
+}
+
+/// Options of `scenes`.
+#[derive(Debug, Args)]
+pub struct Scenes {
+    /// Names of shipped scenes whose files are written
+    #[arg(value_name = "NAME")]
+    pub(super) names: Vec<String>,
+    /// Print the list as JSON
+    #[arg(long, conflicts_with = "names")]
+    pub(super) json: bool,
+    /// Folder for the files [default: the current one]
+    #[arg(short, long, value_name = "DIR", requires = "names")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// Options of `new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Name of the scene: letters, digits, - and _
+    #[arg(value_name = "NAME")]
+    pub(super) name: String,
+    /// The bearing, as `brinell catalogue` lists it
+    #[arg(long, value_name = "NAME", default_value = "6205")]
+    pub(super) bearing: String,
+    /// A spall: outer, inner or element, a colon and its length in mm or deg [default: none]
+    #[arg(long, value_name = "inner:1.2mm")]
+    pub(super) defect: Option<Spall>,
+    /// Folder for the file [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+}
+
+/// Options of `catalogue`.
+#[derive(Debug, Args)]
+pub struct Catalogue {
+    /// How the names begin, as 62
+    #[arg(value_name = "FILTER", default_value = "", hide_default_value = true)]
+    pub(super) filter: String,
+    /// Print them as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
