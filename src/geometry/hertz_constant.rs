@@ -115,11 +115,8 @@ mod tests {
 
     #[test]
     fn constants_at_a_free_contact_angle_are_those_of_the_curvatures_there() {
-        let mut bearing = Bearing {
-            conformity_inner: 0.515,
-            conformity_outer: 0.525,
-            ..Bearing::steel_balls(12, 7.938e-3, 38.5e-3)
-        };
+        let mut bearing =
+            Bearing { conformity_inner: 0.515, conformity_outer: 0.525, ..Bearing::steel_balls(12, 7.938e-3, 38.5e-3) };
         for (degrees, inner, outer) in [
             (0.0, 2.816_288e10, 2.501_867e10),
             (15.0, 2.819_530e10, 2.499_670e10),

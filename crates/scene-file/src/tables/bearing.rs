@@ -46,8 +46,8 @@ struct WholeBearing {
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BearingTable {
-    /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where
-    /// no key beside it says otherwise.
+    /// Name of a deep groove, angular contact or cylindrical roller bearing, as 6205, 7205B or NU205; its dimensions
+    /// hold where no key beside it says otherwise.
     catalogue: Option<String>,
     /// What rolls; without it balls, or what the bearing of the catalogue has.
     element: Option<ElementKind>,
@@ -163,7 +163,11 @@ impl TryFrom<BearingTable> for WholeBearing {
         let count = keys.element_count.or(inside.map(|inside| inside.element_count));
         let diameter = keys.element_diameter_mm.or(inside.map(|inside| inside.element_diameter));
         let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
-        let clearance = keys.clearance()?;
+        let angle = inside.and_then(|inside| inside.contact_angle);
+        if let (Some(bearing), Some(angle), Ok(DegreesOfFreedom::Two)) = (named, angle, keys.freedom()) {
+            return Err(TableFault::AngularInPlane { name: bearing.designation, angle });
+        }
+        let clearance = keys.clearance(angle)?;
         let youngs_modulus = keys.youngs_modulus_gpa.or(from_catalogue(YOUNGS_MODULUS_GPA));
         Ok(Self {
             element,
@@ -224,7 +228,8 @@ struct Angles {
 }
 
 impl BearingTable {
-    fn clearance(&self) -> Result<Clearance, TableFault> {
+    /// What is given, or the contact angle (°) of the catalogue's bearing, or the usual clearance.
+    fn clearance(&self, angle: Option<f64>) -> Result<Clearance, TableFault> {
         let given = [
             ("bearing.radial_clearance_um", self.radial_clearance_um.map(|um| Clearance::Radial(um / 1e6))),
             ("bearing.internal_clearance_um", self.internal_clearance_um.map(|um| Clearance::Radial(um / 2e6))),
@@ -235,7 +240,9 @@ impl BearingTable {
         match (given.next(), given.next()) {
             (Some((first, _)), Some((second, _))) => Err(TableFault::Both { first, second }),
             (Some((_, clearance)), None) => Ok(clearance),
-            (None, _) => Ok(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6)),
+            (None, _) => Ok(angle.map_or(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6), |degrees| {
+                Clearance::ContactAngle(degrees.to_radians())
+            })),
         }
     }
 }
