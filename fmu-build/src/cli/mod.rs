@@ -107,7 +107,7 @@ impl Command {
             Command::Scenes(options) => scenes::command(&options.names, &options.output.unwrap_or_default()),
             Command::New(options) => {
                 let folder = options.output.unwrap_or_default();
-                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
+                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), options.axial, &folder)
             }
             Command::Catalogue(options) => catalogue::command(&options.filter),
             Command::Schema => {

@@ -109,7 +109,7 @@ impl Run {
     pub(super) fn model(&self) -> Result<Model> {
         let Some(scene) = &self.scene else {
             let bearing = self.bearing.as_deref().unwrap_or_default();
-            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref())?, bearing);
+            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref(), None)?, bearing);
         };
         Model::read(scene)
     }
@@ -359,6 +359,10 @@ pub struct New {
     /// A spall: outer, inner or element, a colon and its length in mm or deg [default: none]
     #[arg(long, value_name = "inner:1.2mm")]
     pub(super) defect: Option<Spall>,
+    /// Axial load, N, along z: the scene gets three degrees of freedom [default: none; of an angular contact bearing as
+    /// much as the radial one]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(super) axial: Option<f64>,
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,

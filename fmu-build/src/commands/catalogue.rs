@@ -18,7 +18,8 @@ pub(crate) fn command(filter: &str) -> Result<()> {
         bail!("no bearing of the catalogue begins with {filter:?}; {near}`brinell catalogue` lists all");
     }
     println!(
-        "Deep groove ball bearings (6...) and cylindrical roller bearings (NU...; NJ, NUP and N are the same inside)."
+        "Deep groove (6...) and angular contact ball bearings (72...; C 15, B 40 degrees) and cylindrical roller\n\
+         bearings (NU...; NJ, NUP and N are the same inside)."
     );
     println!("Bore, outside diameter and width by ISO 15; elements as the last column says.\n");
     println!(
@@ -26,7 +27,7 @@ pub(crate) fn command(filter: &str) -> Result<()> {
     );
     for bearing in bearings {
         let ([bore, outside, width], inside) = (bearing.boundary, bearing.inside);
-        let Inside { element_count, element_diameter, pitch_diameter, roller_length, source } = inside;
+        let Inside { element_count, element_diameter, pitch_diameter, roller_length, source, .. } = inside;
         let length = roller_length.map_or("-".to_owned(), |length| format!("{length:.1}"));
         println!(
             "{:<6} {bore:>4} {outside:>4} {width:>4}       {element_count:>8}  {element_diameter:>13.3}  {length:>11}  \
