@@ -96,6 +96,9 @@ pub struct Record {
     /// Path u (m) and absolute radial velocity w (m/s) of each element that is in balance at every instant; empty for
     /// others, whose state has them.
     pub balanced: [Row; 2],
+    /// In space: parts of the direction of the inner contact's force away from the inner ring's axis and along it, then
+    /// of the outer contact's from the outer ring's; empty in the plane.
+    pub meridians: [Row; 4],
 }
 
 impl Record {
@@ -122,6 +125,7 @@ impl Record {
             outer_pushing: zeros(),
             path_rate: zeros(),
             balanced: [Row::zeros(0), Row::zeros(0)],
+            meridians: [(); 4].map(|()| Row::zeros(0)),
         }
     }
 }

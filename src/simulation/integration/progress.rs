@@ -1,6 +1,7 @@
 //! The part of the state that the integration owns: plain numbers, all that its future depends on.
 
 use super::switching::Choice;
+use crate::dynamics::contacts::RingForces;
 use crate::dynamics::parameters::{Cells, Model};
 use crate::numerics::lanes::padded;
 use crate::numerics::lanes::row::Row;
@@ -41,8 +42,8 @@ pub struct Progress {
     pub due: Due,
     /// The recorder's rows under way; of no length where the scene has no recorder.
     pub under_way: Row,
-    /// Mean forces on inner and outer ring over the last communication step (N).
-    pub mean_force: [f64; 4],
+    /// Mean forces and moments on both rings over the last communication step (N, N m).
+    pub mean_force: RingForces,
     /// Accepted steps.
     pub steps: u64,
     /// Accepted steps among them of the implicit method.
@@ -67,7 +68,7 @@ impl Progress {
             choice: Choice::default(),
             due: Due::default(),
             under_way: Row::zeros(under_way),
-            mean_force: [0.0; 4],
+            mean_force: [0.0; 10],
             steps: 0,
             implicit_steps: 0,
             rejected_steps: 0,

@@ -50,6 +50,7 @@ pub(in crate::simulation) fn excitation(state: &State, inputs: &Inputs, ratios: 
         housing: [motion(&housing, 0), motion(&housing, 1)],
         shaft_load: shaft.load.map(load),
         housing_load: housing.load.map(load),
+        beyond: Default::default(),
         relative_speed: Quadratic([speed, acceleration, 0.0]),
     };
     if !stepping {
