@@ -10,10 +10,13 @@
 //! ```
 //! Tilts are small, and moments are about axes that stand.
 
+use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::groove::Groove;
+use crate::contact::law::elastic_law;
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::excitation::{Excitation, Frame};
 use crate::dynamics::parameters::layout::Layout;
-use crate::scene::{DegreesOfFreedom, MOST_SENSORS, Motion, Ring, Scene};
+use crate::scene::{Bearing, DegreesOfFreedom, MOST_SENSORS, Motion, Ring, Scene};
 
 /// Coordinates of a ring.
 pub const COORDINATES: usize = 5;
@@ -39,6 +42,10 @@ pub struct RingInSpace<T = f64> {
 pub struct Space {
     /// The grooves of the inner and of the outer ring.
     pub grooves: [Groove; 2],
+    /// Angles (rad) from the bottoms of the grooves to their shoulders, where the scene has them.
+    pub shoulders: [Option<f64>; 2],
+    /// Half-lengths of the contact ellipses across the grooves under 1 N (m), which grow with the cube root of the force.
+    pub half_lengths: [f64; 2],
     /// Damping of balls across the grooves χ_a (s/m).
     pub across_damping: f64,
     /// Gravity along z (m/s²).
@@ -92,6 +99,10 @@ impl Space {
         let sense = bearing.axial_sense();
         Some(Box::new(Self {
             grooves: Groove::of(bearing),
+            shoulders: [(bearing.shoulder_inner, 0), (bearing.shoulder_outer, 1)].map(|(height, side)| {
+                height.map(|height| libm::acos(1.0 - height / bearing.groove_radii()[side]))
+            }),
+            half_lengths: half_lengths(bearing),
             across_damping: scene.contact.damping_across(),
             gravity: scene.axial_gravity,
             pitch_radius: 0.5 * bearing.pitch_diameter,
@@ -107,6 +118,12 @@ impl Space {
     /// Length (m) of a unit of each coordinate: that of the pitch radius of a tilt.
     pub fn length(&self, coordinate: usize) -> f64 {
         if coordinate % COORDINATES < 3 { 1.0 } else { self.pitch_radius }
+    }
+
+    /// θ_s − |α| − a/r_g (rad) of a contact at the angle α (rad) under a force (N).
+    pub fn shoulder_margin(&self, side: usize, angle: f64, force: f64) -> f64 {
+        let ends = self.shoulders[side].unwrap_or(0.0);
+        ends - angle.abs() - self.half_lengths[side] * libm::cbrt(force.max(0.0)) / self.grooves[side].radius
     }
 
     /// 1/inertia of a coordinate (1/kg, 1/(kg m²)); 0 where forces move nothing.
@@ -155,6 +172,14 @@ impl Space {
     pub(in crate::dynamics) fn along_sensor(&self, sensor: usize, housing: &[f64; COORDINATES]) -> f64 {
         (0..3).map(|i| housing[i] * self.sensors[sensor][i]).sum()
     }
+}
+
+/// Half-lengths of the ellipses across the grooves under 1 N (m), for the curvatures of Hertz's constants.
+fn half_lengths(bearing: &Bearing) -> [f64; 2] {
+    [RacewaySide::Inner, RacewaySide::Outer].map(|side| {
+        let approach = elastic_law(bearing, side).approach_under(1.0);
+        ElementOnRaceway::at_angle(bearing, side, bearing.contact_angle.unwrap_or(0.0)).contact_half_axes(approach)[1]
+    })
 }
 
 fn bodies_of(ring: &Ring) -> [Body; COORDINATES] {

@@ -1,7 +1,7 @@
 //! Forces and moments on the rings by their positions and tilts, each ball staying in its balance.
 
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::parameters::{Cells, FramedKinematics, Model, RINGS, RingInSpace, Space};
+use crate::dynamics::contacts::{Record, Shortcuts};
+use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, Space};
 
 impl Model {
     /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
@@ -24,6 +24,23 @@ impl Model {
             }
         }
         sum
+    }
+
+    /// Tangent stiffness of the inner ring by its own coordinates, −∂(F, M)/∂(x, φ) with the balls in balance, at the
+    /// communication point; `None` in the plane.
+    pub fn stiffness_in_space(
+        &self,
+        excitation: &Excitation,
+        (cells, state): (&Cells, &[f64]),
+        contacts: &Record,
+        shortcuts: &mut Shortcuts,
+    ) -> Option<[[f64; COORDINATES]; COORDINATES]> {
+        let space = self.space.as_ref()?;
+        let rings = self.rings_in_space(excitation, 0.0, state, None);
+        let now = self.kinematics(excitation, 0.0, state);
+        let balls = self.balls_of(contacts.paths(self, state));
+        let tangent = self.spatial_tangent(space, &now, &rings, cells, &balls, shortcuts);
+        Some(std::array::from_fn(|row| std::array::from_fn(|column| -tangent[row][column])))
     }
 
     /// u and v of each ball in a state.

@@ -52,6 +52,8 @@ pub struct Progress {
     pub rejected_steps: u64,
     /// Approaches near the defect that were computed.
     pub defect_lookups: u64,
+    /// Ends of steps at which a shoulder cuts a contact.
+    pub truncated_contacts: u64,
 }
 
 impl Progress {
@@ -73,6 +75,7 @@ impl Progress {
             implicit_steps: 0,
             rejected_steps: 0,
             defect_lookups: 0,
+            truncated_contacts: 0,
         }
     }
 
@@ -84,6 +87,7 @@ impl Progress {
             Count::RejectedSteps => self.rejected_steps,
             Count::ContactSolves if solves_grids => self.defect_lookups,
             Count::MapLookups if !solves_grids => self.defect_lookups,
+            Count::TruncatedContacts => self.truncated_contacts,
             Count::ContactSolves | Count::MapLookups => 0,
         }
     }
@@ -100,5 +104,6 @@ impl Progress {
         (self.due, self.mean_force) = (other.due, other.mean_force);
         (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);
         (self.rejected_steps, self.defect_lookups) = (other.rejected_steps, other.defect_lookups);
+        self.truncated_contacts = other.truncated_contacts;
     }
 }
