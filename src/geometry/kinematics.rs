@@ -1,14 +1,17 @@
-//! Kinematics of a radial bearing, without a contact angle, that rolls without sliding, and its characteristic
+//! Kinematics of a bearing that rolls without sliding, at one contact angle α of both raceways, and its characteristic
 //! frequencies.
 //!
-//! With γ = D_w/D_pw and contact angle 0 cage and elements turn at
+//! With γ = D_w/D_pw and γ' = γ cos α cage and elements turn at
 //! ```text
-//! ω_c = ½ [ω_i (1−γ) + ω_o (1+γ)] (1−slip)
-//! ω_b = [ω_o (1+γ) − ω_i (1−γ)] / (2γ) · (1−s_b)
+//! ω_c = ½ [ω_i (1−γ') + ω_o (1+γ')] (1−slip)
+//! ω_b = [ω_o (1+γ') − ω_i (1−γ')] / (2γ) · (1−s_b) + ω_c (1 − cos α)
 //! ```
-//! Slip is the cage's lag behind pure rolling. The spin ω_b is absolute. It is the mean of rolling on both raceways, by
-//! half the difference of ω_c R_p − r ω_b = ω_i R_i and ω_c R_p + r ω_b = ω_o R_o, so that the cage's slip leaves it
-//! alone; s_b is its own lag.
+//! Slip is the cage's lag behind pure rolling. An element turns in its pocket about an axis that leans by α from the
+//! bearing's, at ω_b − ω_c: the mean of rolling on both raceways, by half the difference of (ω_i − ω_c)(R_p − r cos α)
+//! = −r (ω_b − ω_c) inside and (ω_o − ω_c)(R_p + r cos α) = r (ω_b − ω_c) outside, so that of the cage's motion only
+//! the part along that axis counts, ω_c cos α. Without a contact angle ω_b is the absolute spin, which the cage's slip
+//! leaves alone; s_b is its own lag. Angles of both contacts that differ, as centrifugal force makes them, move ω_c by
+//! the second order of half their difference.
 
 use crate::scene::{Bearing, Scene};
 use std::f64::consts::TAU;
@@ -23,14 +26,19 @@ pub struct Ratios {
 }
 
 impl Ratios {
-    /// Those of a bearing whose cage lags by `slip` and whose elements lag by `spin_slip`.
+    /// Those of a bearing whose cage lags by `slip` and whose elements lag by `spin_slip`, at the operating angle that
+    /// the scene gives, or none.
     pub fn new(bearing: &Bearing, slip: f64, spin_slip: f64) -> Self {
-        let gamma = bearing.element_diameter / bearing.pitch_diameter;
-        let rolling = |by: f64| by / (2.0 * gamma) * (1.0 - spin_slip);
-        Self {
-            cage: [cage_ratio(bearing, slip), 0.5 * (1.0 + gamma) * (1.0 - slip)],
-            spin: [rolling(gamma - 1.0), rolling(1.0 + gamma)],
-        }
+        Self::at(bearing, bearing.given_operating_angle().unwrap_or(0.0), slip, spin_slip)
+    }
+
+    /// The same at a contact angle (rad).
+    pub fn at(bearing: &Bearing, angle: f64, slip: f64, spin_slip: f64) -> Self {
+        let (gamma, cosine) = (bearing.element_diameter / bearing.pitch_diameter, libm::cos(angle));
+        let along = gamma * cosine;
+        let cage = [0.5 * (1.0 - along) * (1.0 - slip), 0.5 * (1.0 + along) * (1.0 - slip)];
+        let rolling = |by: f64, cage: f64| by / (2.0 * gamma) * (1.0 - spin_slip) + cage * (1.0 - cosine);
+        Self { cage, spin: [rolling(along - 1.0, cage[0]), rolling(1.0 + along, cage[1])] }
     }
 }
 
@@ -75,7 +83,7 @@ pub fn passage_frequency(count: usize, cage: f64, ring: f64) -> f64 {
 
 /// Cage speed per inner ring speed, ω_c/ω_i, for an outer ring that stands.
 pub fn cage_ratio(bearing: &Bearing, slip: f64) -> f64 {
-    0.5 * (1.0 - bearing.element_diameter / bearing.pitch_diameter) * (1.0 - slip)
+    Ratios::new(bearing, slip, 0.0).cage[0]
 }
 
 /// Characteristic frequencies where the shaft turns at `speed_hz` (Hz) and the outer ring stands.
@@ -94,6 +102,38 @@ mod tests {
         // Rounding of a dozen operations.
         let worst = found.iter().zip(expected).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-14, "{found:?} {expected:?}");
+    }
+
+    #[test]
+    fn a_contact_angle_moves_the_frequencies_as_its_cosine_says() {
+        let mut bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        let at = |bearing: &Bearing| {
+            let Frequencies { bpfo, bpfi, bsf, ftf } = frequencies(bearing, 0.0, 10.0);
+            [ftf, bpfo, bpfi, bsf]
+        };
+        let plain = at(&bearing);
+        for (degrees, expected) in [
+            (0.0, [3.983_094, 35.847_848, 54.152_152, 23.567_477]),
+            (15.0, [4.017_744, 36.159_700, 53.840_300, 23.635_597]),
+            (-40.0, [4.221_005, 37.989_045, 52.010_955, 23.987_638]),
+        ] {
+            bearing.operating_angle = Some(f64::to_radians(degrees));
+            for (found, expected) in at(&bearing).into_iter().zip(expected) {
+                // Six decimals are given.
+                assert!((found - expected).abs() < 1e-6, "{degrees}: {found} {expected}");
+            }
+        }
+        bearing.operating_angle = Some(0.0);
+        assert_eq!(at(&bearing), plain);
+        // With no operating angle it is the free contact angle, if there is one.
+        bearing.operating_angle = None;
+        bearing.set_contact_angle(f64::to_radians(15.0));
+        assert!((at(&bearing)[0] - 4.017_744).abs() < 1e-6);
+        // Slip of the cage leaves the rolling of balls in their pockets to the part along their axis.
+        let [rolling, slipping] = [0.0, 0.1].map(|slip| Ratios::new(&bearing, slip, 0.0));
+        let [fast, slow] = [rolling, slipping].map(|ratios| ratios.spin[0] - ratios.cage[0]);
+        let along_the_axis = libm::cos(f64::to_radians(15.0)) * (rolling.cage[0] - slipping.cage[0]);
+        assert!((slow - fast - along_the_axis).abs() < 1e-15);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Scenes made by a Rust program. What is not said has the value that a scene file gives it.
 
 use super::{
-    Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape, ElementInertia,
-    Experiment, Film, Motion, Recorder, RepeatedInputs, Ring, Roller, RollerProfile, RollingElement, Scene, SceneError,
-    Sensor,
+    AxialSupport, Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape,
+    DegreesOfFreedom, ElementInertia, Experiment, Film, Gyroscopic, Motion, Recorder, RepeatedInputs, Ring, Roller,
+    RollerProfile, RollingElement, Scene, SceneError, Sensor, TiltSupport,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -35,10 +35,12 @@ impl Scene {
             name: "bearing".to_owned(),
             description: String::new(),
             gravity: [0.0, -9.81],
+            axial_gravity: 0.0,
             bearing,
             contact: Contact {
                 law: ContactLaw::Hertz,
                 damping: Damping::HuntCrossley(0.5),
+                across_damping: None,
                 largest_force: None,
                 cells: None,
                 map_accuracy: None,
@@ -78,6 +80,12 @@ impl Bearing {
             conformity_inner: 0.52,
             conformity_outer: 0.52,
             radial_clearance: 5e-6,
+            degrees_of_freedom: DegreesOfFreedom::Two,
+            contact_angle: None,
+            operating_angle: None,
+            shoulder_inner: None,
+            shoulder_outer: None,
+            gyroscopic: Gyroscopic::None,
             youngs_modulus: 207e9,
             poissons_ratio: 0.3,
             density: 7800.0,
@@ -107,17 +115,24 @@ impl Ring {
     /// of freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground
     /// as stiffly as a bearing is stiff would carry the load itself.
     pub fn default_shaft() -> Self {
-        Self { motion: Motion::Internal, load: [0.0; 2], mass: 3.2638, damping: 1376.8, stiffness: 0.0 }
+        Self::supported(3.2638, 1376.8, 0.0, TiltSupport::ASSUMED)
     }
 
     /// The outer ring with its pedestal: a mass on a support, from the same models.
     pub fn default_housing() -> Self {
-        Self { motion: Motion::Internal, load: [0.0; 2], mass: 6.638, damping: 2210.7, stiffness: 1.51056e7 }
+        Self::supported(6.638, 2210.7, 1.51056e7, TiltSupport::NONE)
+    }
+
+    /// A ring with a mass (kg) on a support that damps (N s/m) and holds (N/m) it along its axis as across it.
+    const fn supported(mass: f64, damping: f64, stiffness: f64, tilt: TiltSupport) -> Self {
+        let axial = AxialSupport { damping, stiffness, ..AxialSupport::NONE };
+        Self { motion: Motion::Internal, mass, damping, stiffness, axial, tilt, ..Self::hosted() }
     }
 
     /// A ring whose position and velocity the host gives at each communication point.
     pub const fn hosted() -> Self {
-        Self { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 }
+        let (axial, tilt) = (AxialSupport::NONE, TiltSupport::NONE);
+        Self { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0, axial, tilt }
     }
 
     /// A ring that stands still.
@@ -126,12 +141,25 @@ impl Ring {
     }
 }
 
+impl AxialSupport {
+    /// Nothing but the bearing.
+    pub const NONE: Self = Self { load: 0.0, preload: 0.0, damping: 0.0, stiffness: 0.0 };
+}
+
+impl TiltSupport {
+    /// Of a ring that does not tilt under moments.
+    pub const NONE: Self =
+        Self { load_moment: [0.0; 2], transverse_inertia: 0.0, polar_inertia: 0.0, damping: 0.0, stiffness: 0.0 };
+    /// Of the default shaft, assumed: the transverse radius of inertia is 39 mm, as of a thin shaft of 136 mm.
+    pub const ASSUMED: Self = Self { transverse_inertia: 5e-3, polar_inertia: 3e-3, damping: 0.5, ..Self::NONE };
+}
+
 impl Default for Sensor {
     /// A resonator of 15 kHz with 5 % of critical damping that measures along y, from the same models as the rings'
     /// supports.
     fn default() -> Self {
         let (name, modes) = (String::new(), Vec::new());
-        Self { name, direction: FRAC_PI_2, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8, modes }
+        Self { name, direction: FRAC_PI_2, elevation: 0.0, mass: 1.0, stiffness: 8.8826e9, damping: 9424.8, modes }
     }
 }
 
@@ -154,6 +182,20 @@ impl SceneBuilder {
     #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.scene.gravity = gravity;
+        self
+    }
+
+    /// In how many directions the rings move.
+    #[must_use]
+    pub fn degrees_of_freedom(mut self, freedom: DegreesOfFreedom) -> Self {
+        self.scene.bearing.degrees_of_freedom = freedom;
+        self
+    }
+
+    /// Axial load on the inner ring (N), along z.
+    #[must_use]
+    pub fn axial_load(mut self, load: f64) -> Self {
+        self.scene.shaft.axial.load = load;
         self
     }
 

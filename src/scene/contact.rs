@@ -9,6 +9,8 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Contact damping.
     pub damping: Damping,
+    /// Damping of a ball's motion across the groove χ_a (s/m), when it overrides the usual one.
+    pub across_damping: Option<f64>,
     /// Largest force on an element near the defect that laws `map` and `love` are prepared for (N); `None` to take it
     /// from the loads.
     pub largest_force: Option<f64>,
@@ -19,6 +21,21 @@ pub struct Contact {
     pub map_accuracy: Option<f64>,
     /// What laws `map` and `love` take a sharp edge to be.
     pub edge: ContactEdge,
+}
+
+impl Contact {
+    /// χ_a (s/m) where nothing says otherwise: a value of the method, not of any friction. Creep would damp the motion
+    /// across the groove at once, at a rate that no explicit step likes; with this one it is about critically damped.
+    pub const ACROSS_DAMPING: f64 = 0.5;
+
+    /// Damping of a ball's motion across the groove χ_a (s/m): the scene's, or as strong as the damping along the
+    /// normal by Hunt and Crossley.
+    pub fn damping_across(&self) -> f64 {
+        self.across_damping.unwrap_or(match self.damping {
+            Damping::HuntCrossley(chi) => chi,
+            Damping::Proportional(_) => Self::ACROSS_DAMPING,
+        })
+    }
 }
 
 /// What a sharp edge of a defect is taken to be.

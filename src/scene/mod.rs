@@ -16,15 +16,17 @@ pub mod model_file;
 mod ring;
 mod sensor;
 
-pub use bearing::{Bearing, Crown, ElementInertia, Roller, RollerProfile, RollingElement};
+pub use bearing::{
+    Bearing, Crown, DegreesOfFreedom, ElementInertia, Gyroscopic, Roller, RollerProfile, RollingElement,
+};
 pub use builder::SceneBuilder;
 pub use cage::{Cage, CageIrregularity};
 pub use check::{Remark, quantity};
 pub use contact::{Contact, ContactEdge, ContactLaw, Damping, Film};
 pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
-pub use error::{BearingError, DefectError, LONGEST_NAME, SceneError};
+pub use error::{BearingError, DefectError, FreedomError, LONGEST_NAME, SceneError};
 pub use messages::{Bound, Limits, Plain, nearest};
-pub use ring::{Motion, RepeatedInputs, Ring};
+pub use ring::{AxialSupport, Motion, RepeatedInputs, Ring, TiltSupport};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
 
 use serde::{Deserialize, Serialize};
@@ -38,6 +40,8 @@ pub struct Scene {
     pub description: String,
     /// Gravity (m/s²), x and y.
     pub gravity: [f64; 2],
+    /// Gravity (m/s²) along the bearing's axis, z.
+    pub axial_gravity: f64,
     /// The bearing itself.
     pub bearing: Bearing,
     /// Contact law and damping.

@@ -65,6 +65,39 @@ pub struct Ring {
     pub damping: f64,
     /// Stiffness to ground (N/m).
     pub stiffness: f64,
+    /// Along the bearing's axis, of a ring that moves there.
+    pub axial: AxialSupport,
+    /// About x and y, of a ring that tilts under the moments on it.
+    pub tilt: TiltSupport,
+}
+
+/// What acts on a ring along the bearing's axis beside the bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct AxialSupport {
+    /// External load (N): start value of the input.
+    pub load: f64,
+    /// Force of a preload spring (N), not negative, which presses the ring in the sense of the contact angle and stays
+    /// whatever the load is.
+    pub preload: f64,
+    /// Viscous damping to ground (N s/m).
+    pub damping: f64,
+    /// Stiffness to ground (N/m).
+    pub stiffness: f64,
+}
+
+/// What acts on a ring about x and y beside the bearing, and its inertia.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct TiltSupport {
+    /// External moment (N m) about x and y: start value of the inputs.
+    pub load_moment: [f64; 2],
+    /// Moment of inertia I_t about x or y (kg m²).
+    pub transverse_inertia: f64,
+    /// Moment of inertia I_p about z (kg m²), which with the ring's speed couples both tilts.
+    pub polar_inertia: f64,
+    /// Viscous damping to ground (N m s/rad).
+    pub damping: f64,
+    /// Stiffness to ground (N m/rad).
+    pub stiffness: f64,
 }
 
 impl fmt::Display for Motion {

@@ -12,6 +12,8 @@ pub struct Sensor {
     pub name: String,
     /// Direction along which it measures (rad), counter-clockwise from +x; π/2 is upwards.
     pub direction: f64,
+    /// How far that direction rises from the plane of x and y towards +z (rad); π/2 is along the axis.
+    pub elevation: f64,
     /// Mass (kg).
     pub mass: f64,
     /// Stiffness (N/m).
@@ -40,8 +42,21 @@ pub struct SensorMode {
 
 impl Sensor {
     /// Unit vector along which it measures. A right angle is one to the bit, and π/2 is only near one.
-    pub fn unit(&self) -> [f64; 2] {
+    pub fn unit_in_space(&self) -> [f64; 3] {
         let part = |number: f64| if number.abs() < 1e-15 { 0.0 } else { number };
-        [part(libm::cos(self.direction)), part(libm::sin(self.direction))]
+        let (flat, rise) = (part(libm::cos(self.elevation)), part(libm::sin(self.elevation)));
+        [part(libm::cos(self.direction)) * flat, part(libm::sin(self.direction)) * flat, rise]
+    }
+
+    /// Its part in the plane of x and y.
+    pub fn unit(&self) -> [f64; 2] {
+        let [x, y, _] = self.unit_in_space();
+        [x, y]
+    }
+
+    /// Turns it along a vector of any length above 0.
+    pub fn set_direction(&mut self, [x, y, z]: [f64; 3]) {
+        self.direction = libm::atan2(y, x);
+        self.elevation = libm::atan2(z, libm::hypot(x, y));
     }
 }

@@ -34,7 +34,9 @@ fn scene(spalled: bool, casing: Casing) -> Scene {
         scene.defects.clear();
     }
     if matches!(casing, Casing::Fixed) {
-        scene.housing = Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+        let housing = scene.housing;
+        scene.housing =
+            Ring { motion: Motion::Fixed, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0, ..housing };
         scene.sensors.clear();
     }
     scene
@@ -42,8 +44,14 @@ fn scene(spalled: bool, casing: Casing) -> Scene {
 
 /// Positions of the mass inside, at each multiple of the grid.
 fn whole(mut scene: Scene) -> Vec<Pair> {
-    scene.shaft =
-        Ring { motion: Motion::Internal, load: [0.0, 0.5 * LOAD], mass: MASS, damping: DAMPING, stiffness: 0.0 };
+    scene.shaft = Ring {
+        motion: Motion::Internal,
+        load: [0.0, 0.5 * LOAD],
+        mass: MASS,
+        damping: DAMPING,
+        stiffness: 0.0,
+        ..scene.shaft
+    };
     let mut simulation = Simulation::new(scene, None).unwrap();
     simulation.initialize(0.0).unwrap();
     simulation.set("shaft.load.y", LOAD).unwrap();

@@ -1,4 +1,4 @@
-//! Common deep groove ball bearings and cylindrical roller bearings by their catalogue's name.
+//! Common deep groove and angular contact ball bearings and cylindrical roller bearings by their catalogue's name.
 //!
 //! Catalogues give the boundary dimensions of ISO 15 and keep what is inside to themselves. Where the number of balls,
 //! their diameter and the pitch diameter are published, they stand here with their source. Of Timken's bearings the
@@ -16,6 +16,13 @@
 //! Of roller bearings all that is inside is estimated: rollers of 0.28 (D − d) to the nearest half millimetre, an
 //! effective length of 0.6 B, as many as take four fifths of the pitch circle (d + D)/2. Makers crown their rollers
 //! each in their own way. NU, NJ, NUP and N differ in their flanges alone.
+//!
+//! Angular contact bearings 7202 to 7212 have the boundary of 6202 to 6212 (ISO 15) and by the letter behind the number
+//! a contact angle of 15 degrees, C, or 40, B, as NSK, NACHI, SKF and Schaeffler name them. What is inside is
+//! estimated: pitch circle and balls as above. One shoulder of a ring is cut away, so that more balls go in than into a
+//! deep groove bearing: of those that fill the pitch circle 93 % of B and 87 % of C, whose cages are thicker. Of a
+//! 7206-B a static rating of 14.3 kN is published, which by ISO 76 takes 14 balls of 9.525 mm, and shoulders 0.32 and
+//! 0.28 of a ball's diameter high; the share of C is assumed. The number may be one off here too.
 
 use brinell::scene::nearest;
 
@@ -29,6 +36,23 @@ const FILLED: f64 = 195.0;
 const TABLE: &str = include_str!("catalogue.csv");
 /// Letters before the number of a roller bearing, which say where its flanges are.
 const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
+
+/// Angular contact bearings, after the ball bearing of the same boundary: with 15 and with 40 degrees.
+const ANGULAR: [[&str; 3]; 11] = [
+    ["6202", "7202C", "7202B"],
+    ["6203", "7203C", "7203B"],
+    ["6204", "7204C", "7204B"],
+    ["6205", "7205C", "7205B"],
+    ["6206", "7206C", "7206B"],
+    ["6207", "7207C", "7207B"],
+    ["6208", "7208C", "7208B"],
+    ["6209", "7209C", "7209B"],
+    ["6210", "7210C", "7210B"],
+    ["6211", "7211C", "7211B"],
+    ["6212", "7212C", "7212B"],
+];
+/// Contact angle (°) and share of a full circle of balls, of C and of B.
+const ANGLES: [(f64, f64); 2] = [(15.0, 0.87), (40.0, 0.93)];
 
 /// A bearing of the catalogue.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +76,8 @@ pub struct Inside {
     pub pitch_diameter: f64,
     /// Effective length of a roller (mm); `None` of balls.
     pub roller_length: Option<f64>,
+    /// Contact angle of an angular contact bearing (°), by its letter.
+    pub contact_angle: Option<f64>,
     /// Who has published that; `None` where it is estimated.
     pub source: Option<&'static str>,
 }
@@ -88,9 +114,9 @@ fn meant(name: &str) -> String {
     nearest(designations(), name).map_or_else(String::new, |near| format!(" (did you mean {near}?)"))
 }
 
-/// All bearings of the catalogue, those with balls first.
+/// All bearings of the catalogue: deep groove, angular contact, cylindrical roller bearings.
 pub fn catalogue() -> impl Iterator<Item = CatalogueBearing> {
-    ball_bearings().chain(roller_bearings())
+    ball_bearings().chain(angular_contact_bearings()).chain(roller_bearings())
 }
 
 fn ball_bearings() -> impl Iterator<Item = CatalogueBearing> {
@@ -98,6 +124,20 @@ fn ball_bearings() -> impl Iterator<Item = CatalogueBearing> {
         let (designation, _, boundary, published) = read(row)?;
         let inside = balls(boundary, &published).unwrap_or_else(|| estimated(boundary));
         Some(CatalogueBearing { designation, boundary, inside })
+    })
+}
+
+fn angular_contact_bearings() -> impl Iterator<Item = CatalogueBearing> {
+    let of = |[_, names @ ..]: [&'static str; 3], boundary| {
+        names.into_iter().zip(ANGLES).map(move |(designation, (angle, share))| CatalogueBearing {
+            designation,
+            boundary,
+            inside: estimated_angular(boundary, angle, share),
+        })
+    };
+    let boundaries = ball_bearings().map(|bearing| (bearing.designation, bearing.boundary));
+    boundaries.flat_map(move |(name, boundary)| {
+        ANGULAR.into_iter().filter(move |names| names[0] == name).flat_map(move |names| of(names, boundary))
     })
 }
 
@@ -128,6 +168,7 @@ fn balls(boundary: [f64; 3], &[count, diameter, steps, pitch, source]: &[&'stati
         element_diameter: diameter.parse().ok().or_else(by_steps)?,
         pitch_diameter: pitch.parse().unwrap_or(halfway(boundary)),
         roller_length: None,
+        contact_angle: None,
         source: Some(source),
     })
 }
@@ -138,6 +179,9 @@ fn halfway([bore, outside, _]: [f64; 3]) -> f64 {
 }
 
 /// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` ECP`, ` C3`) left out; `None` if there is none.
+/// Of an angular contact bearing the letter of its angle is a part of the name: `7205 BEP` is a 7205B, `7205-C-TVP` a
+/// 7205C.
+///
 /// ```
 /// let bearing = brinell_scene_file::catalogued("6205-2RS").unwrap();
 /// assert_eq!((bearing.boundary, bearing.inside.element_count), ([25.0, 52.0, 15.0], 9));
@@ -148,6 +192,11 @@ pub fn catalogued(designation: &str) -> Option<CatalogueBearing> {
     let (letters, rest) = name.split_at(letters);
     let number: String = rest.trim_start().chars().take_while(char::is_ascii_digit).collect();
     let wanted = match letters {
+        "" if number.starts_with("72") => {
+            let behind = rest.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
+            let angle = behind.trim_start_matches([' ', '-']).chars().next().filter(|c| ['B', 'C'].contains(c));
+            format!("{number}{}", angle?)
+        }
         "" => number,
         letters if FLANGES.contains(&letters) => format!("NU{number}"),
         _ => return None,
@@ -160,7 +209,14 @@ fn estimated_rollers(boundary @ [bore, outside, width]: [f64; 3]) -> Inside {
     let element_diameter = (0.28 * (outside - bore) * 2.0).round() / 2.0;
     let element_count = (0.8 * std::f64::consts::PI * pitch_diameter / element_diameter).round() as usize;
     let roller_length = Some((0.6 * width * 10.0).round() / 10.0);
-    Inside { element_count, element_diameter, pitch_diameter, roller_length, source: None }
+    Inside { element_count, element_diameter, pitch_diameter, roller_length, contact_angle: None, source: None }
+}
+
+/// With so large a share of the balls that would fill the pitch circle.
+fn estimated_angular(boundary: [f64; 3], angle: f64, share: f64) -> Inside {
+    let inside = estimated(boundary);
+    let full = std::f64::consts::PI / libm::asin(inside.element_diameter / inside.pitch_diameter);
+    Inside { element_count: (share * full) as usize, contact_angle: Some(angle), ..inside }
 }
 
 fn estimated(boundary @ [bore, outside, _]: [f64; 3]) -> Inside {
@@ -168,7 +224,8 @@ fn estimated(boundary @ [bore, outside, _]: [f64; 3]) -> Inside {
     let element_diameter = (0.3 * (outside - bore) / STEP_OF_BALLS).round() * STEP_OF_BALLS;
     let taken = 2.0 * libm::asin(element_diameter / pitch_diameter).to_degrees();
     let element_count = 1 + (FILLED / taken) as usize;
-    Inside { element_count, element_diameter, pitch_diameter, roller_length: None, source: None }
+    let (roller_length, contact_angle) = (None, None);
+    Inside { element_count, element_diameter, pitch_diameter, roller_length, contact_angle, source: None }
 }
 
 #[cfg(test)]
@@ -228,7 +285,16 @@ mod tests {
         assert_eq!(off, ["6209", "6303"]);
         let sourced = ball_bearings().filter(|bearing| bearing.inside.source.is_some());
         assert_eq!(sourced.count(), 2 + COEFFICIENTS.len());
-        assert_eq!(catalogue().count(), 37 + 21, "a row of the table is not read");
+        assert_eq!(catalogue().count(), 37 + 2 * 11 + 21, "a row of the table is not read");
+    }
+
+    #[test]
+    fn a_7206b_has_the_balls_that_its_published_static_rating_takes() {
+        let inside = catalogued("7206B").unwrap().inside;
+        // ISO 76: C0 = f0 Z D² cos α, with f0 of 14.9 at D cos α/D_pw = 0.16. The rating is 1.4 % below 14.5 kN, which 14
+        // balls have, and 13 are 5 % above what they have.
+        let rating = 14.9 * inside.element_diameter * inside.element_diameter * 40f64.to_radians().cos();
+        assert_eq!((inside.element_count, (14.3e3 / rating).round()), (14, 14.0));
     }
 
     #[test]
@@ -239,7 +305,7 @@ mod tests {
             assert!(pitch_diameter - element_diameter > bore && pitch_diameter + element_diameter < outside);
             let spacing = pitch_diameter * (std::f64::consts::PI / element_count as f64).sin();
             assert!(spacing > 1.05 * element_diameter, "{bearing:?}");
-            let most = if inside.roller_length.is_some() { 16 } else { 13 };
+            let most = if inside.roller_length.or(inside.contact_angle).is_some() { 16 } else { 13 };
             assert!((6..=most).contains(&element_count), "{bearing:?}");
             let shape = inside.roller_length.map_or(1.0, |length| length / element_diameter);
             assert!((0.6..1.6).contains(&shape), "{bearing:?}");
@@ -254,7 +320,11 @@ mod tests {
         for name in ["NU205", "NU 205 ECP", "NJ205", "N 205", "NUP205/C3"] {
             assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("NU205"), "{name}");
         }
-        for name in ["", "NA205", "NU", "62055", "bearing 6205"] {
+        for name in ["7205B", "7205 BEP", "7205-B-TVP", "7205BECBP"] {
+            assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("7205B"), "{name}");
+        }
+        assert_eq!(catalogued("7205 CD/P4A").and_then(|bearing| bearing.inside.contact_angle), Some(15.0));
+        for name in ["", "NA205", "NU", "62055", "bearing 6205", "7205", "7205A", "7213B"] {
             assert_eq!(catalogued(name), None, "{name}");
         }
     }

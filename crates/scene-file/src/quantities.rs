@@ -11,6 +11,9 @@ const GROOVE_DIAMETER: Quantity =
     quantity("groove diameter", "bearing.groove_diameter_mm", 1e3, Inclusive(0.01), Inclusive(4e6));
 /// As it is written in degrees, of any body.
 const SPALL_LENGTH_DEG: Quantity = quantity("spall length", "defect.length_deg", 1.0, Exclusive(0.0), Exclusive(360.0));
+const AXIAL_CLEARANCE: Quantity =
+    quantity("axial clearance", "bearing.axial_clearance_um", 1e6, Inclusive(0.0), Inclusive(4e9));
+const SENSOR_VECTOR: Quantity = quantity("sensor direction", "sensor.direction", 1.0, Inclusive(-1e9), Inclusive(1e9));
 const DEFECT_ELEMENT: Quantity =
     quantity("number of the element with the defect", "defect.element", 1.0, Inclusive(1.0), Inclusive(1000.0));
 
@@ -30,13 +33,18 @@ pub(crate) fn written() -> impl Iterator<Item = (&'static str, &'static Quantity
 }
 
 /// Those of one key in one unit.
-static WRITTEN: [&Quantity; 61] = [
+static WRITTEN: [&Quantity; 79] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
     &PITCH_DIAMETER,
     &CLEARANCE,
     &INTERNAL_CLEARANCE,
+    &AXIAL_CLEARANCE,
+    &CONTACT_ANGLE,
+    &OPERATING_ANGLE,
+    &SHOULDER_INNER,
+    &SHOULDER_OUTER,
     &GROOVE_DIAMETER,
     &ROLLER_LENGTH,
     &ROLLER_LAMINAE,
@@ -49,6 +57,7 @@ static WRITTEN: [&Quantity; 61] = [
     &OUTER_COMPLIANCE,
     &DAMPING_CHI,
     &DAMPING_TAU,
+    &ACROSS_DAMPING,
     &LARGEST_FORCE,
     &CONTACT_CELLS,
     &MAP_ACCURACY,
@@ -72,6 +81,7 @@ static WRITTEN: [&Quantity; 61] = [
     &HOUSING_SPEED,
     &SPEED,
     &SENSOR_DIRECTION,
+    &SENSOR_VECTOR,
     &SENSOR_MASS,
     &SENSOR_STIFFNESS,
     &SENSOR_DAMPING,
@@ -88,8 +98,19 @@ static WRITTEN: [&Quantity; 61] = [
     &SHAFT.mass,
     &SHAFT.damping,
     &SHAFT.stiffness,
+    &SHAFT.preload,
+    &SHAFT.axial_damping,
+    &SHAFT.axial_stiffness,
+    &LOAD_MOMENT,
+    &TRANSVERSE_INERTIA,
+    &POLAR_INERTIA,
+    &TILT_DAMPING,
+    &TILT_STIFFNESS,
     &HOUSING.load,
     &HOUSING.mass,
     &HOUSING.damping,
     &HOUSING.stiffness,
+    &HOUSING.preload,
+    &HOUSING.axial_damping,
+    &HOUSING.axial_stiffness,
 ];

@@ -144,7 +144,7 @@ impl Command {
             }
             Command::New(options) => {
                 let folder = options.output.unwrap_or_default();
-                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), &folder)
+                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), options.axial, &folder)
             }
             Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
             Command::Completions { shell } => {

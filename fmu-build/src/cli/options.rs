@@ -129,7 +129,7 @@ impl Run {
     pub(super) fn model(&self) -> Result<Model> {
         let Some(scene) = &self.scene else {
             let bearing = self.bearing.as_deref().unwrap_or_default();
-            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref())?, bearing);
+            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref(), None)?, bearing);
         };
         Model::read(scene)
     }

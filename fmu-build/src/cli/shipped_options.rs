@@ -47,6 +47,10 @@ pub struct New {
     /// A spall: outer, inner or element, a colon and its length in mm or deg [default: none]
     #[arg(long, value_name = "inner:1.2mm")]
     pub(super) defect: Option<Spall>,
+    /// Axial load, N, along z: the scene gets three degrees of freedom [default: none; of an angular contact bearing as
+    /// much as the radial one]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(super) axial: Option<f64>,
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,

@@ -79,12 +79,13 @@ fn entries(filter: &str) -> Result<Vec<Entry>> {
 
 fn table(entries: &[Entry]) -> String {
     let mut text = String::from(
-        "Deep groove ball bearings (6...) and cylindrical roller bearings (NU...; NJ, NUP and N are the same inside).\n\
+        "Deep groove (6...) and angular contact ball bearings (72...; C 15, B 40 degrees) and cylindrical roller\n\
+         bearings (NU...; NJ, NUP and N are the same inside).\n\
          Bore, outside diameter and width by ISO 15; elements as the last column says.\n\n\
          name      d    D    B [mm]  elements  diameter [mm]  length [mm]  pitch [mm]  elements and pitch diameter\n",
     );
     for Entry { name, boundary: [bore, outside, width], inside } in entries {
-        let Inside { element_count, element_diameter, pitch_diameter, roller_length, source } = inside;
+        let Inside { element_count, element_diameter, pitch_diameter, roller_length, source, .. } = inside;
         let length = roller_length.map_or("-".to_owned(), |length| format!("{length:.1}"));
         let _ = writeln!(
             text,

@@ -44,15 +44,15 @@ fn named(name: &str) -> Result<CatalogueBearing> {
 }
 
 /// The scene of a bearing that is nowhere written down.
-pub(crate) fn unwritten(bearing: &str, spall: Option<&Spall>) -> Result<String> {
+pub(crate) fn unwritten(bearing: &str, spall: Option<&Spall>, axial: Option<f64>) -> Result<String> {
     let bearing = named(bearing)?;
     let name = format!("{}-{}", bearing.designation.to_lowercase(), spall.map_or("healthy", |spall| spall.on));
-    text(&name, &bearing, spall)
+    text(&name, &bearing, spall, axial)
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
 pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
-    let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, None)?)?;
+    let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, None, None)?)?;
     scene.sensors.clear();
     match load {
         Some(load) if !(load.is_finite() && load > 0.0) => bail!("--load {load} N: it must be finite and above 0"),
@@ -65,9 +65,15 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
     Ok(scene)
 }
 
-/// The command: writes `<folder>/<name>.toml`.
-pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: &Path) -> Result<()> {
-    let text = text(name, &named(bearing)?, spall)?;
+/// The command: writes `<folder>/<name>.toml`, under an axial load (N) where one is asked for.
+pub(crate) fn command(
+    name: &str,
+    bearing: &str,
+    spall: Option<&Spall>,
+    axial: Option<f64>,
+    folder: &Path,
+) -> Result<()> {
+    let text = text(name, &named(bearing)?, spall, axial)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     let path = folder.join(format!("{name}.toml"));
@@ -79,11 +85,20 @@ pub(crate) fn command(name: &str, bearing: &str, spall: Option<&Spall>, folder: 
     schema::write_beside(folder)
 }
 
-fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> Result<String> {
+fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>, axial: Option<f64>) -> Result<String> {
     let (designation, inside) = (bearing.designation, bearing.inside);
+    if let Some(axial) = axial.filter(|axial| !axial.is_finite() || *axial == 0.0) {
+        bail!("--axial {axial} N: it must be finite and other than 0");
+    }
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
     let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
     let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
+    // A contact that leans lifts a ring that nothing pushes along the axis.
+    let (axial, axial_source) = match (axial, inside.contact_angle) {
+        (Some(axial), _) => (Some(axial), "as asked for"),
+        (None, Some(_)) => (Some(load), "as much along the axis"),
+        (None, None) => (None, ""),
+    };
     let what =
         spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
     let defect = |&Spall { on, length, unit }: &Spall| context! { on, unit, length => format!("{length:?}") };
@@ -99,7 +114,14 @@ fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>) -> Result
         diameter => format!("{:.3}", inside.element_diameter),
         pitch => format!("{:.3}", inside.pitch_diameter),
         length => inside.roller_length.map(|length| format!("{length:<16}")),
-        load_vector => format!("{:<28}", format!("[0.0, -{load:.1}]")),
+        load_vector => format!("{:<28}", match axial {
+            None => format!("[0.0, -{load:.1}]"),
+            Some(axial) => format!("[0.0, -{load:.1}, {axial:?}]"),
+        }),
+        axial => axial.map(|axial| axial.to_string()),
+        axial_source,
+        angle => inside.contact_angle.map(|angle| format!("{angle:<17?}")),
+        shoulder => format!("{:<17.2}", 0.2 * inside.element_diameter),
         spall => spall.map(defect),
     };
     render("new_scene.toml", include_str!("../../assets/new_scene.toml"), values)
@@ -115,7 +137,8 @@ mod tests {
         for bearing in catalogue() {
             for spall in [None, Some("outer:5deg"), Some("inner:0.5mm"), Some("element:0.4mm")] {
                 let spall: Option<Spall> = spall.map(|text| text.parse().unwrap());
-                let scene = brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref()).unwrap()).unwrap();
+                let scene =
+                    brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref(), None).unwrap()).unwrap();
                 assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
                 assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
             }
@@ -123,8 +146,22 @@ mod tests {
     }
 
     #[test]
+    fn an_axial_load_asks_for_three_degrees_of_freedom() {
+        for (name, axial, expected) in
+            [("7205B", Some(500.0), 500.0), ("6205", Some(-300.0), -300.0), ("7205C", None, 550.0)]
+        {
+            let text = text("mine", &catalogued(name).unwrap(), None, axial).unwrap();
+            let scene = brinell_scene_file::from_toml(&text).unwrap();
+            assert_eq!((scene.bearing.degrees_of_freedom.count(), scene.shaft.axial.load), (3, expected), "{text}");
+            assert_eq!(scene.bearing.contact_angle.is_some(), name != "6205");
+        }
+        let refused = text("mine", &catalogued("6205").unwrap(), None, Some(0.0)).unwrap_err().to_string();
+        assert!(refused.contains("--axial 0 N"), "{refused}");
+    }
+
+    #[test]
     fn each_motion_that_a_scene_offers_is_taken_as_its_comment_says() {
-        let own = text("mine", &catalogued("6205").unwrap(), None).unwrap();
+        let own = text("mine", &catalogued("6205").unwrap(), None, None).unwrap();
         let offers = |line: &&str| line.starts_with("motion = ");
         let mut tried = Vec::new();
         for line in own.lines().filter(offers) {

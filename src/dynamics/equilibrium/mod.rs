@@ -4,6 +4,7 @@ mod element;
 mod error;
 mod resting;
 pub mod search;
+mod spatial_search;
 pub mod variation;
 
 pub use search::EquilibriumError;

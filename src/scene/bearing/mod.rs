@@ -1,7 +1,9 @@
 //! The bearing: its dimensions, its material and what rolls in it.
 
+mod freedom;
 mod rolling_element;
 
+pub use freedom::{DegreesOfFreedom, Gyroscopic};
 pub use rolling_element::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
 
 use serde::{Deserialize, Serialize};
@@ -22,8 +24,22 @@ pub struct Bearing {
     pub conformity_inner: f64,
     /// Groove conformity of the outer ring f_o = r_go/D_w, above 0.5; infinite with rollers.
     pub conformity_outer: f64,
-    /// Radial internal clearance G_r (m); negative is a preload.
+    /// Radial internal clearance G_r (m); negative is a preload. With `contact_angle` that which belongs to it.
     pub radial_clearance: f64,
+    /// In how many directions the rings move.
+    pub degrees_of_freedom: DegreesOfFreedom,
+    /// Free contact angle α° (rad), positive where the bearing takes pushes of the inner ring towards +z; `None` of a
+    /// symmetric bearing. [`set_contact_angle`](Self::set_contact_angle) gives it with its clearance.
+    pub contact_angle: Option<f64>,
+    /// Contact angle (rad) for which the cage, the elements' spin and the tracks are worked out; `None` for the free
+    /// one where it is given, else that of the start's equilibrium.
+    pub operating_angle: Option<f64>,
+    /// Height of the inner ring's shoulder above the groove's bottom (m), on the loaded side; `None` where nobody asks.
+    pub shoulder_inner: Option<f64>,
+    /// The same of the outer ring (m).
+    pub shoulder_outer: Option<f64>,
+    /// Who holds the balls' gyroscopic couple.
+    pub gyroscopic: Gyroscopic,
     /// Young's modulus of rings and elements (Pa).
     pub youngs_modulus: f64,
     /// Poisson's ratio of rings and elements.

@@ -14,6 +14,7 @@
 
 mod defect;
 mod faults;
+mod freedom;
 pub mod quantity;
 mod remark;
 mod roller;
@@ -63,6 +64,7 @@ impl Scene {
             faults.passes(defect.check(bearing).map_err(|of| of.in_table("defect", index, self.defects.len())));
         }
         faults.passes(self.check_rings());
+        faults.passes(self.check_freedom());
         faults.passes(self.check_sensors());
         faults.passes(TOLERANCE.check(self.tolerance));
         faults.passes(MAX_STEPS.check(self.max_steps as f64));
@@ -160,6 +162,7 @@ impl Sensor {
     fn check(&self) -> Result<(), SceneError> {
         let mut faults = Faults::default();
         faults.passes(SENSOR_DIRECTION.check(self.direction));
+        faults.passes(SENSOR_ELEVATION.check(self.elevation));
         faults.passes(SENSOR_MASS.check(self.mass));
         faults.passes(SENSOR_STIFFNESS.check(self.stiffness));
         faults.passes(SENSOR_DAMPING.check(self.damping));

@@ -24,6 +24,9 @@ pub struct RingQuantities {
     pub mass: Quantity,
     pub damping: Quantity,
     pub stiffness: Quantity,
+    pub preload: Quantity,
+    pub axial_damping: Quantity,
+    pub axial_stiffness: Quantity,
 }
 
 impl Quantity {
@@ -69,6 +72,9 @@ pub fn shown(value: f64) -> f64 {
 /// Smallest conformity. Below it the contact ellipse is longer than a groove is wide, and at 0.5 it has no end.
 pub const SMALLEST_CONFORMITY: f64 = 0.5001;
 
+/// Largest conformity of grooves on which balls run at a contact angle.
+pub const LARGEST_CONFORMITY_OF_ANGLES: f64 = 0.6;
+
 /// A quantity by its name, its key, the key's unit per SI unit, and its limits in the key's unit.
 pub const fn quantity(quantity: &'static str, key: &'static str, per_si: f64, low: Bound, high: Bound) -> Quantity {
     Quantity { quantity, key, per_si, low, high }
@@ -109,6 +115,15 @@ pub const CONFORMITY_OUTER: Quantity = quantity(
 );
 pub const CLEARANCE: Quantity =
     quantity("radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9));
+/// Steeper ones are those of thrust bearings.
+pub const CONTACT_ANGLE: Quantity =
+    quantity("contact angle", "bearing.contact_angle_deg", DEG, Inclusive(-60.0), Inclusive(60.0));
+pub const OPERATING_ANGLE: Quantity =
+    quantity("operating contact angle", "bearing.operating_angle_deg", DEG, Inclusive(-70.0), Inclusive(70.0));
+pub const SHOULDER_INNER: Quantity =
+    quantity("height of the inner ring's shoulder", "bearing.shoulder_inner_mm", 1e3, Exclusive(0.0), Inclusive(2e3));
+pub const SHOULDER_OUTER: Quantity =
+    quantity("height of the outer ring's shoulder", "bearing.shoulder_outer_mm", 1e3, Exclusive(0.0), Inclusive(2e3));
 pub const YOUNGS_MODULUS: Quantity =
     quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4));
 pub const POISSONS_RATIO: Quantity =
@@ -133,6 +148,8 @@ pub const OUTER_COMPLIANCE: Quantity =
     quantity("outer compliance", "bearing.outer_compliance_m_n", 1.0, Inclusive(0.0), Inclusive(1e-3));
 pub const DAMPING_CHI: Quantity =
     quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
+pub const ACROSS_DAMPING: Quantity =
+    quantity("damping across the groove", "contact.across_damping_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
 pub const DAMPING_TAU: Quantity =
     quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
 /// From fuel to grease's base oil in the cold.
@@ -186,13 +203,53 @@ pub const SHAFT: RingQuantities = RingQuantities {
     mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
     stiffness: quantity("shaft stiffness", "shaft.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
+    preload: quantity("preload of the shaft", "shaft.preload_n", 1.0, Inclusive(0.0), Inclusive(1e9)),
+    axial_damping: quantity(
+        "axial damping of the shaft",
+        "shaft.axial_damping_n_s_m",
+        1.0,
+        Inclusive(0.0),
+        Inclusive(1e12),
+    ),
+    axial_stiffness: quantity(
+        "axial stiffness of the shaft",
+        "shaft.axial_stiffness_n_m",
+        1.0,
+        Inclusive(0.0),
+        Inclusive(1e15),
+    ),
 };
 pub const HOUSING: RingQuantities = RingQuantities {
     load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
     mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
     stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
+    preload: quantity("preload of the housing", "housing.preload_n", 1.0, Inclusive(0.0), Inclusive(1e9)),
+    axial_damping: quantity(
+        "axial damping of the housing",
+        "housing.axial_damping_n_s_m",
+        1.0,
+        Inclusive(0.0),
+        Inclusive(1e12),
+    ),
+    axial_stiffness: quantity(
+        "axial stiffness of the housing",
+        "housing.axial_stiffness_n_m",
+        1.0,
+        Inclusive(0.0),
+        Inclusive(1e15),
+    ),
 };
+pub const LOAD_MOMENT: Quantity =
+    quantity("moment on the shaft", "shaft.load_moment_n_m", 1.0, Inclusive(-1e9), Inclusive(1e9));
+pub const TRANSVERSE_INERTIA: Quantity =
+    quantity("transverse inertia of the shaft", "shaft.transverse_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9));
+pub const POLAR_INERTIA: Quantity =
+    quantity("polar inertia of the shaft", "shaft.polar_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9));
+pub const TILT_DAMPING: Quantity =
+    quantity("tilt damping of the shaft", "shaft.tilt_damping_n_m_s", 1.0, Inclusive(0.0), Inclusive(1e12));
+pub const TILT_STIFFNESS: Quantity =
+    quantity("tilt stiffness of the shaft", "shaft.tilt_stiffness_n_m_rad", 1.0, Inclusive(0.0), Inclusive(1e15));
 /// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
 pub const HOUSING_SPEED: Quantity =
     quantity("speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
@@ -201,6 +258,8 @@ pub const SENSOR_COUNT: Quantity =
     quantity("number of sensors", "[[sensor]]", 1.0, Inclusive(1.0), Inclusive(MOST_SENSORS as f64));
 pub const SENSOR_DIRECTION: Quantity =
     quantity("sensor direction", "sensor.direction_deg", 180.0 / PI, Inclusive(-1e3), Inclusive(1e3));
+pub const SENSOR_ELEVATION: Quantity =
+    quantity("elevation of the sensor direction", "sensor.direction", 180.0 / PI, Inclusive(-90.0), Inclusive(90.0));
 pub const SENSOR_MASS: Quantity = quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));
 pub const SENSOR_STIFFNESS: Quantity =
     quantity("sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15));

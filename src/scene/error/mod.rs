@@ -3,9 +3,11 @@
 
 mod bearing;
 mod defect;
+mod freedom;
 
 pub use bearing::BearingError;
 pub use defect::DefectError;
+pub use freedom::FreedomError;
 
 use super::messages::{Limits, Plain};
 
@@ -40,6 +42,9 @@ pub enum SceneError {
     /// A defect that cannot exist, or not in this bearing.
     #[error(transparent)]
     Defect(#[from] DefectError),
+    /// Something that needs other degrees of freedom, or that these need.
+    #[error(transparent)]
+    Freedom(#[from] FreedomError),
     /// Something wrong with one of several tables of a name.
     #[error("[[{table}]] number {number}: {of}")]
     InTable { table: &'static str, number: usize, of: Box<SceneError> },

@@ -2,7 +2,7 @@
 
 use super::quantity::{Quantity, RingName};
 use crate::dynamics::contacts::Forces;
-use crate::dynamics::parameters::{Excitation, Frame, Model, RingState};
+use crate::dynamics::parameters::{Excitation, Frame, Model, RingInSpace, RingState, force_slot};
 use crate::numerics::plane::Vector;
 
 /// Angles of the cage and of the frames of defects (rad), all turns counted.
@@ -83,14 +83,46 @@ impl<'a> Outputs<'a> {
         self.cage_angle() + self.model.element_offset(j) + self.forces.element_lead(j)
     }
 
+    /// Rings with more than two degrees of freedom; `None` in the plane.
+    fn in_space(&self) -> Option<[RingInSpace; 2]> {
+        let Solution { excitation, tau, state, .. } = self.solution;
+        self.model.space.as_ref().map(|_| self.model.rings_in_space(excitation, tau, state, None))
+    }
+
+    /// Contact angle (rad) of element `j` on the inner (0) or the outer (1) raceway; 0 of a contact without force.
+    fn contact_angle(&self, j: usize, side: usize) -> f64 {
+        let Some(space) = &self.model.space else { return 0.0 };
+        self.forces.contacts.contact_angle(space, j, side)
+    }
+
+    /// Angle (rad) that a contact ellipse leaves to the shoulder; negative where the shoulder cuts it.
+    fn shoulder_margin(&self, j: usize, side: usize) -> f64 {
+        let Some(space) = &self.model.space else { return 0.0 };
+        self.forces.contacts.shoulder_margin(space, j, side)
+    }
+
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
         let Solution { excitation, tau, state, .. } = self.solution;
         Some(match quantity {
+            // Beyond the plane.
+            Quantity::Position(ring, k @ 2..) => self.in_space()?[ring.index()].position[k],
+            Quantity::Velocity(ring, k @ 2..) => self.in_space()?[ring.index()].velocity[k],
+            Quantity::Acceleration(ring, k @ 2..) => {
+                self.model.ring_rates_in_space(excitation, tau, self.solution.derivative)[ring.index()].velocity[k]
+            }
+            Quantity::Force(ring, k @ 2..) => self.forces.rings[force_slot(ring.index(), k)],
+            Quantity::Probe(k @ 2..) => {
+                let [shaft, housing] = self.in_space()?;
+                shaft.position[k] - housing.position[k]
+            }
+            Quantity::ElementAxial(j) => self.forces.contacts.axial_positions(self.model, state)[j],
+            Quantity::ContactAngle(j, side) => self.contact_angle(j, side),
+            Quantity::ShoulderMargin(j, side) => self.shoulder_margin(j, side),
             Quantity::Position(ring, axis) => self.ring(ring).position[axis],
             Quantity::Velocity(ring, axis) => self.ring(ring).velocity[axis],
             Quantity::Acceleration(ring, axis) => self.acceleration(ring)[axis],
-            Quantity::Force(ring, axis) => self.forces.rings[2 * ring.index() + axis],
+            Quantity::Force(ring, axis) => self.forces.rings[force_slot(ring.index(), axis)],
             Quantity::SensorAcceleration(k) => self.sensor(k),
             Quantity::Probe(axis) => {
                 self.ring(RingName::Shaft).position[axis] - self.ring(RingName::Housing).position[axis]

@@ -5,7 +5,7 @@ use super::dependencies;
 use super::quantity::{Count, Quantity};
 use super::value_access::{self, Access};
 use super::{Inputs, table};
-use crate::scene::{Scene, nearest};
+use crate::scene::{DegreesOfFreedom, Scene, nearest};
 use crate::simulation::VariableError;
 use crate::simulation::interface::table::{Causality, Dependencies, Kind, Variable};
 use std::sync::Arc;
@@ -25,7 +25,8 @@ impl Interface {
         let (table, quantities): (Vec<_>, Vec<_>) = table::rows(scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let count = table.iter().take_while(|v| v.causality == Causality::Input).count();
-        let inputs = Inputs { frames: scene.turns(), ..Inputs::new(&quantities, count) };
+        let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
+        let inputs = Inputs { frames: scene.turns() || in_space, ..Inputs::new(&quantities, count) };
         Self { table: table.into(), quantities: quantities.into(), access, inputs }
     }
 

@@ -3,7 +3,7 @@
 use super::running::{Present, Run};
 use super::state::{Ended, FirstInputs, History, State};
 use crate::contact::map::ContactMaps;
-use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::contacts::{RingForces, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
 use crate::scene::Scene;
 use crate::simulation::Method;
@@ -34,7 +34,7 @@ pub struct Simulation {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Ahead {
     /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
-    pub(super) force: Option<[f64; 4]>,
+    pub(super) force: Option<RingForces>,
     /// Where the state is kept meanwhile.
     pub(super) state: Option<Box<State>>,
 }

@@ -23,6 +23,7 @@
 
 use super::life::{Simulation, UpToDate};
 use super::state::{Ended, History};
+use crate::dynamics::contacts::RingForces;
 use crate::numerics::plane::{Matrix, Vector};
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Inputs, Quantity, RingName};
@@ -65,7 +66,7 @@ impl Simulation {
     }
 
     /// Takes the step.
-    fn step_ahead(&mut self, history: &History) -> Result<[f64; 4], SimulationError> {
+    fn step_ahead(&mut self, history: &History) -> Result<RingForces, SimulationError> {
         let state = &mut self.run.state;
         state.reals[..self.interface.inputs.count].copy_from_slice(&history.arrived);
         state.input_rates.fill([None; 2]);
@@ -79,8 +80,12 @@ impl Simulation {
         let stiffness = Matrix::from_fn(|row, column| self.value_of(Quantity::Stiffness(row, column)));
         let late = stiffness * (of_rings[0] - of_rings[1]) * (history.step * history.step / 12.0);
         self.advance(history.step)?;
-        let [x, y, housing_x, housing_y] = self.run.state.progress.mean_force;
-        Ok([x + late.x, y + late.y, housing_x - late.x, housing_y - late.y])
+        let mut force = self.run.state.progress.mean_force;
+        for axis in 0..2 {
+            force[axis] += late[axis];
+            force[2 + axis] -= late[axis];
+        }
+        Ok(force)
     }
 
     /// Value of a quantity as it was computed last; 0 for what this scene does not have.

@@ -5,6 +5,7 @@
 
 use super::life::{Simulation, UpToDate};
 use super::state::Ended;
+use crate::dynamics::parameters::force_slot;
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Outputs, Quantity};
 
@@ -49,12 +50,12 @@ impl Simulation {
     #[inline]
     pub(super) fn output(&self, outputs: &Outputs, quantity: Quantity) -> f64 {
         match quantity {
-            Quantity::MeanForce(ring, axis) => self.run.state.progress.mean_force[2 * ring.index() + axis],
+            Quantity::MeanForce(ring, axis) => self.run.state.progress.mean_force[force_slot(ring.index(), axis)],
             Quantity::NextMeanForce(ring, axis) => {
                 let force = self.ahead.force.as_ref().unwrap_or(&self.run.state.progress.mean_force);
-                force[2 * ring.index() + axis]
+                force[force_slot(ring.index(), axis)]
             }
-            Quantity::Stiffness(row, column) => self.present.stiffness[(row, column)],
+            Quantity::Stiffness(row, column) => self.present.stiffness[row][column],
             Quantity::SuggestedStep => self.present.suggested_step,
             other => outputs.value(other).unwrap_or(f64::NAN),
         }

@@ -3,7 +3,6 @@
 use super::excitation;
 use super::state::{Ended, FirstInputs, History, State};
 use crate::dynamics::parameters::{Excitation, Layout, Model, WholeAngle};
-use crate::numerics::plane::Matrix;
 use crate::scene::Scene;
 use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
@@ -13,8 +12,8 @@ use crate::simulation::recorder::{Due, Recorder};
 use crate::simulation::setup;
 use crate::simulation::step_error::StepError;
 
-/// Speeds of both rings, and position, velocity and acceleration of each along two axes.
-const MOST_INPUTS: usize = 2 + 2 * 6;
+/// Speeds of both rings, and position, velocity and acceleration of each along its five coordinates.
+const MOST_INPUTS: usize = 2 + 2 * 15;
 
 /// Inputs with their derivatives; slots beyond the last input are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,7 +150,7 @@ pub(in crate::simulation) struct Present {
     /// The right-hand side under it.
     pub(in crate::simulation) evaluation: Evaluation,
     /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
-    pub(in crate::simulation) stiffness: Matrix,
+    pub(in crate::simulation) stiffness: [[f64; 5]; 5],
     /// What a host that moves a ring should take for a step (s).
     pub(in crate::simulation) suggested_step: f64,
 }
@@ -159,7 +158,7 @@ pub(in crate::simulation) struct Present {
 impl Present {
     pub(in crate::simulation) fn new(model: &Model) -> Self {
         let (excitation, evaluation) = (Excitation::default(), Evaluation::new(model));
-        Self { excitation, evaluation, stiffness: Matrix::zeros(), suggested_step: 0.0 }
+        Self { excitation, evaluation, stiffness: [[0.0; 5]; 5], suggested_step: 0.0 }
     }
 
     /// Evaluates the right-hand side under `excitation`. It must not depend on what was computed before, or a restored
@@ -176,7 +175,9 @@ impl Present {
     pub(in crate::simulation) fn rest(&mut self, layout: &Layout) {
         let derivative = &mut self.evaluation.derivative;
         for start in [layout.shaft, layout.housing].into_iter().flatten() {
-            derivative[start + 2..start + 4].fill(0.0);
+            for slot in Layout::VELOCITIES.into_iter().take(layout.freedom.count()) {
+                derivative[start + slot] = 0.0;
+            }
         }
         for i in layout.sensor_indices() {
             derivative[i + 1] = 0.0;
@@ -186,9 +187,17 @@ impl Present {
     pub(in crate::simulation) fn evaluate_stiffness(&mut self, Run { model, state, .. }: &Run) {
         let (progress, forces) = (&state.progress, &mut self.evaluation.forces);
         let now = model.kinematics(&self.excitation, 0.0, &progress.state);
+        let at = (&progress.cells, &*progress.state);
+        let in_space = model.stiffness_in_space(&self.excitation, at, &forces.contacts, &mut forces.shortcuts);
+        if let Some(stiffness) = in_space {
+            self.stiffness = stiffness;
+            return;
+        }
         let paths = forces.contacts.paths(model, &progress.state);
         let jacobian = model.ring_jacobian(paths, &progress.cells, &now, &mut forces.shortcuts);
-        self.stiffness = -jacobian.fixed_view::<2, 2>(0, 0).into_owned();
+        for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            self.stiffness[row][column] = -jacobian[(row, column)];
+        }
         self.suggested_step = suggested_step(model, &jacobian);
     }
 

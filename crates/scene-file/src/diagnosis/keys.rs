@@ -61,8 +61,11 @@ pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn F
             continue;
         }
         let (shown, near) = (path(name, key, is_table(value.get_ref())), nearest(keys.iter().copied(), key));
-        // A slip of the pen in a key of rollers asks for nothing that there is not.
-        let slip = key.starts_with("roller_") && near.is_some();
+        // A slip of the pen in a key that there is asks for nothing that there is not.
+        let alike = |near: &str| {
+            ["roller_", "axial_", "contact_", "tilt_"].iter().any(|of| key.starts_with(of) && near.starts_with(of))
+        };
+        let slip = near.is_some_and(alike);
         let fault = match instead_of(name, key).filter(|_| !slip) {
             Some(only) => KeyFault::NotModelled { line, key: shown, only },
             None => KeyFault::Unknown { line, key: shown, hint: hint(name, keys, key) },
@@ -120,6 +123,7 @@ mod tests {
     use super::super::toml_kinds::Kind;
     use super::*;
     use crate::tables::*;
+    use brinell::scene::DegreesOfFreedom;
     use serde::Deserialize;
     use toml::de::{Deserializer, Error};
 
@@ -163,7 +167,7 @@ mod tests {
                 let more = "conformity_inner = 0.52\nconformity_outer = 0.52\ndensity_kg_m3 = 7800\n";
                 let text = text.to_owned() + more;
                 let keys: BearingTable = read(&text).unwrap();
-                keys.into_bearing().err().map(|faults| faults.0[0].to_string())
+                keys.into_bearing(DegreesOfFreedom::Two).err().map(|faults| faults.0[0].to_string())
             }
             "contact" => of::<ContactTable>(text),
             "film" => of::<FilmTable>(text),
@@ -197,8 +201,8 @@ mod tests {
         }
         let kind = |name: &str, key: &str| tables.iter().find(|table| table.name == name).unwrap().kind(key).unwrap();
         assert_eq!(kind("shaft", "motion"), &Kind::Word(vec!["host", "internal", "fixed"]));
-        assert_eq!(kind("housing", "load_n"), &Kind::Pair(Box::new(Kind::Number)));
-        assert_eq!(kind("contact", "cells"), &Kind::Pair(Box::new(Kind::Whole(true))));
+        assert_eq!(kind("housing", "load_n"), &Kind::Short(Box::new(Kind::Number), [2, 3]));
+        assert_eq!(kind("contact", "cells"), &Kind::Short(Box::new(Kind::Whole(true)), [2, 2]));
         assert_eq!(kind("cage", "spacing_deg"), &Kind::List(Box::new(Kind::Number)));
         assert_eq!(kind("sensor", "mode"), &Kind::List(Box::new(Kind::Table)));
         assert_eq!(kind("", "sensor"), &Kind::OneOrMore);

@@ -19,11 +19,15 @@ const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" o
                         bearing.roller_length_mm; other rollers are not modelled, so far";
 const BY_NAME: &str =
     "a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by bearing.element";
-const PLANE: &str = "the rings move in one plane, so far: no axial load, no contact angle, no tilt";
+const AXIS: &str = "motion along the axis and tilt are said by bearing.degrees_of_freedom = 3 or 5, an axial load by \
+                    the third number of load_n, an angle by bearing.contact_angle_deg, moments by \
+                    shaft.load_moment_n_m";
+const HELD: &str = "the tilt of a housing that moves by itself is held, so far: only the shaft has inertia, moments, \
+                    damping and stiffness of tilt";
 const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is \
                    not modelled";
 
-const ASKED: [Asked; 6] = [
+const ASKED: [Asked; 7] = [
     Asked { tables: &[""], names: &["race"], parts: &["defect", "spall", "raceway", "_race"], only: DEFECTS },
     Asked {
         tables: &["defect"],
@@ -52,11 +56,12 @@ const ASKED: [Asked; 6] = [
         parts: &["bearing_type", "bearing_kind", "bearing_name", "bearing_series", "bearing_model"],
         only: BY_NAME,
     },
+    Asked { tables: &["housing"], names: &[], parts: &["tilt", "moment", "inertia", "misalign"], only: HELD },
     Asked {
         tables: &["", "bearing", "shaft", "housing"],
         names: &[],
         parts: &["axial", "thrust", "contact_angle", "tilt", "misalign"],
-        only: PLANE,
+        only: AXIS,
     },
     Asked {
         tables: &["", "bearing", "contact", "cage"],

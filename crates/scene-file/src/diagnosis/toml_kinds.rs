@@ -17,8 +17,8 @@ pub(super) enum Kind {
     Text,
     /// One of these words.
     Word(Vec<&'static str>),
-    /// Two values of a kind.
-    Pair(Box<Kind>),
+    /// So many values of a kind, from least to most.
+    Short(Box<Kind>, [u64; 2]),
     /// Any number of values of a kind.
     List(Box<Kind>),
     /// A table.
@@ -50,7 +50,11 @@ impl Kind {
             "object" => Some(Self::Table),
             "array" => {
                 let of = Box::new(Self::of(schema, &part["items"])?);
-                Some(if part["minItems"] == 2 && part["maxItems"] == 2 { Self::Pair(of) } else { Self::List(of) })
+                let lengths = part["minItems"].as_u64().zip(part["maxItems"].as_u64());
+                Some(match lengths {
+                    Some((least, most)) => Self::Short(of, [least, most]),
+                    None => Self::List(of),
+                })
             }
             _ => None,
         }
@@ -61,7 +65,7 @@ impl Kind {
             Self::Number => "numbers",
             Self::Whole(_) => "whole numbers",
             Self::Text | Self::Word(_) => "texts in quotes",
-            Self::Pair(_) | Self::List(_) => "lists",
+            Self::Short(..) | Self::List(_) => "lists",
             Self::Table | Self::OneOrMore => "tables",
         }
     }
@@ -70,7 +74,9 @@ impl Kind {
 /// The words of which a value must be one: all together, or each beside what it means.
 fn words(part: &'static Value) -> Option<Vec<&'static str>> {
     if let Some(words) = part["enum"].as_array() {
-        return Some(words.iter().filter_map(Value::as_str).collect());
+        let words: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
+        // Numbers of which a value must be one are no words.
+        return (!words.is_empty()).then_some(words);
     }
     let each = part["oneOf"].as_array()?.iter();
     Some(
@@ -94,7 +100,14 @@ impl fmt::Display for Kind {
                 }
                 [] => Ok(()),
             },
-            Self::Pair(kind) => write!(f, "a list of two {}", kind.several()),
+            Self::Short(kind, lengths) => {
+                let how_many = match lengths {
+                    [2, 2] => "two",
+                    [2, 3] => "two or three",
+                    _ => "three",
+                };
+                write!(f, "a list of {how_many} {}", kind.several())
+            }
             Self::List(kind) => write!(f, "a list of {}", kind.several()),
             Self::Table => f.write_str("one table"),
             Self::OneOrMore => f.write_str("a table, or several"),

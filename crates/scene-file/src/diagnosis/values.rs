@@ -53,7 +53,9 @@ fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
         Kind::Whole(false) => whole.is_some_and(|number| i64::try_from(number).is_ok()),
         Kind::Text => value.is_str(),
         Kind::Word(words) => value.as_str().is_some_and(|word| words.contains(&word)),
-        Kind::Pair(kind) => all(kind) && value.as_array().is_some_and(|values| values.len() == 2),
+        Kind::Short(kind, [least, most]) => {
+            all(kind) && value.as_array().is_some_and(|values| (*least..=*most).contains(&(values.len() as u64)))
+        }
         Kind::List(kind) => all(kind),
         Kind::Table => value.is_table(),
         Kind::OneOrMore => value.is_table() || all(&Kind::Table),

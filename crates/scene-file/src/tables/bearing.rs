@@ -3,7 +3,10 @@
 use super::faults::{Faults, TableFault};
 use crate::catalogue::{CatalogueBearing, NotInCatalogue, catalogued};
 use brinell::scene::quantity::ELEMENT_COUNT;
-use brinell::scene::{Bearing, BearingError, Crown, ElementInertia, Roller, RollerProfile, RollingElement, SceneError};
+use brinell::scene::{
+    Bearing, BearingError, Crown, DegreesOfFreedom, ElementInertia, FreedomError, Gyroscopic, Roller, RollerProfile,
+    RollingElement, SceneError,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -27,8 +30,7 @@ struct WholeBearing {
     groove_diameter_mm: Option<f64>,
     conformity_inner: Option<f64>,
     conformity_outer: Option<f64>,
-    radial_clearance_um: Option<f64>,
-    internal_clearance_um: Option<f64>,
+    clearance: Clearance,
     youngs_modulus_gpa: f64,
     poissons_ratio: f64,
     density_kg_m3: Option<f64>,
@@ -37,14 +39,15 @@ struct WholeBearing {
     hertz_outer_n_m1_5: Option<f64>,
     outer_compliance_m_n: f64,
     element_inertia: ElementInertia,
+    angles: Angles,
 }
 
 /// The keys as they stand in the file.
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BearingTable {
-    /// Name of a deep groove ball bearing or cylindrical roller bearing, as 6205 or NU205; its dimensions hold where
-    /// no key beside it says otherwise.
+    /// Name of a deep groove, angular contact or cylindrical roller bearing, as 6205, 7205B or NU205; its dimensions
+    /// hold where no key beside it says otherwise.
     catalogue: Option<String>,
     /// What rolls; without it balls, or what the bearing of the catalogue has.
     element: Option<ElementKind>,
@@ -71,6 +74,26 @@ pub(crate) struct BearingTable {
     radial_clearance_um: Option<f64>,
     /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the two.
     internal_clearance_um: Option<f64>,
+    /// Total axial play from stop to stop; one of the four. 3 or 5 degrees of freedom only.
+    axial_clearance_um: Option<f64>,
+    /// Free contact angle of an angular contact bearing, positive where it takes pushes of the inner ring towards +z;
+    /// one of the four. 3 or 5 degrees of freedom only.
+    contact_angle_deg: Option<f64>,
+    /// In how many directions the rings move: 2, along x and y, without it; 3, and along z; 5, and they tilt about x
+    /// and y. Balls only.
+    #[schemars(extend("enum" = [2, 3, 5]))]
+    degrees_of_freedom: Option<i64>,
+    /// Contact angle for which cage, spin and tracks are worked out; without it the free one where it is given, else
+    /// that of the start's equilibrium.
+    operating_angle_deg: Option<f64>,
+    /// Height of the inner ring's shoulder above the groove's bottom, on the loaded side; nothing is reported without
+    /// it.
+    shoulder_inner_mm: Option<f64>,
+    /// The same of the outer ring.
+    shoulder_outer_mm: Option<f64>,
+    /// Who holds the balls' gyroscopic couple: "none" without it; of balls without inertia only.
+    #[serde(default)]
+    gyroscopic: Gyroscopic,
     /// Of rings and elements.
     youngs_modulus_gpa: Option<f64>,
     /// Of rings and elements.
@@ -104,8 +127,14 @@ enum ElementKind {
 }
 
 impl BearingTable {
-    pub(crate) fn into_bearing(self) -> Result<Bearing, Faults> {
-        WholeBearing::try_from(self)?.into_bearing()
+    /// The degrees of freedom, which other tables ask as well.
+    pub(super) fn freedom(&self) -> Result<DegreesOfFreedom, SceneError> {
+        let given = self.degrees_of_freedom.unwrap_or(DegreesOfFreedom::Two.count() as i64);
+        DegreesOfFreedom::counted(given).ok_or(FreedomError::NoneSuch { given }.into())
+    }
+
+    pub(crate) fn into_bearing(self, freedom: DegreesOfFreedom) -> Result<Bearing, Faults> {
+        WholeBearing::try_from(self)?.into_bearing(freedom)
     }
 }
 
@@ -134,6 +163,11 @@ impl TryFrom<BearingTable> for WholeBearing {
         let count = keys.element_count.or(inside.map(|inside| inside.element_count));
         let diameter = keys.element_diameter_mm.or(inside.map(|inside| inside.element_diameter));
         let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
+        let angle = inside.and_then(|inside| inside.contact_angle);
+        if let (Some(bearing), Some(angle), Ok(DegreesOfFreedom::Two)) = (named, angle, keys.freedom()) {
+            return Err(TableFault::AngularInPlane { name: bearing.designation, angle });
+        }
+        let clearance = keys.clearance(angle)?;
         let youngs_modulus = keys.youngs_modulus_gpa.or(from_catalogue(YOUNGS_MODULUS_GPA));
         Ok(Self {
             element,
@@ -146,8 +180,7 @@ impl TryFrom<BearingTable> for WholeBearing {
             groove_diameter_mm: keys.groove_diameter_mm,
             conformity_inner: keys.conformity_inner.or(conformity),
             conformity_outer: keys.conformity_outer.or(conformity),
-            radial_clearance_um: keys.radial_clearance_um,
-            internal_clearance_um: keys.internal_clearance_um,
+            clearance,
             youngs_modulus_gpa: needed(youngs_modulus, "bearing.youngs_modulus_gpa")?,
             poissons_ratio: needed(keys.poissons_ratio.or(from_catalogue(POISSONS_RATIO)), "bearing.poissons_ratio")?,
             density_kg_m3: keys.density_kg_m3.or(density),
@@ -156,6 +189,11 @@ impl TryFrom<BearingTable> for WholeBearing {
             hertz_outer_n_m1_5: keys.hertz_outer_n_m1_5,
             outer_compliance_m_n: keys.outer_compliance_m_n,
             element_inertia: keys.element_inertia,
+            angles: Angles {
+                operating_angle: keys.operating_angle_deg.map(f64::to_radians),
+                shoulders: [keys.shoulder_inner_mm, keys.shoulder_outer_mm].map(|height| height.map(|mm| mm / 1e3)),
+                gyroscopic: keys.gyroscopic,
+            },
         })
     }
 }
@@ -171,18 +209,77 @@ fn bearing_named(name: &str) -> Result<CatalogueBearing, TableFault> {
 /// Clearance where the file says none (µm).
 const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
+/// What the file says of how loose the bearing is, in SI units.
+enum Clearance {
+    /// G = R_o − R_i − 2r (m). What a catalogue calls the radial internal clearance is how far one ring can be moved
+    /// against the other, from stop to stop: 2 G.
+    Radial(f64),
+    /// The same along the axis (m).
+    AxialPlay(f64),
+    /// Free contact angle (rad).
+    ContactAngle(f64),
+}
+
+/// What the file says of contact angles and shoulders, in SI units.
+struct Angles {
+    operating_angle: Option<f64>,
+    shoulders: [Option<f64>; 2],
+    gyroscopic: Gyroscopic,
+}
+
+impl BearingTable {
+    /// What is given, or the contact angle (°) of the catalogue's bearing, or the usual clearance.
+    fn clearance(&self, angle: Option<f64>) -> Result<Clearance, TableFault> {
+        let given = [
+            ("bearing.radial_clearance_um", self.radial_clearance_um.map(|um| Clearance::Radial(um / 1e6))),
+            ("bearing.internal_clearance_um", self.internal_clearance_um.map(|um| Clearance::Radial(um / 2e6))),
+            ("bearing.axial_clearance_um", self.axial_clearance_um.map(|um| Clearance::AxialPlay(um / 1e6))),
+            ("bearing.contact_angle_deg", self.contact_angle_deg.map(|deg| Clearance::ContactAngle(deg.to_radians()))),
+        ];
+        let mut given = given.into_iter().filter_map(|(key, clearance)| clearance.map(|clearance| (key, clearance)));
+        match (given.next(), given.next()) {
+            (Some((first, _)), Some((second, _))) => Err(TableFault::Both { first, second }),
+            (Some((_, clearance)), None) => Ok(clearance),
+            (None, _) => Ok(angle.map_or(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6), |degrees| {
+                Clearance::ContactAngle(degrees.to_radians())
+            })),
+        }
+    }
+}
+
+impl Clearance {
+    /// Of a bearing with its diameters and grooves.
+    fn put_into(self, bearing: &mut Bearing) -> Result<(), SceneError> {
+        match self {
+            Self::Radial(clearance) => bearing.radial_clearance = clearance,
+            // Rollers are refused for it, and have no groove to work a clearance out of.
+            Self::ContactAngle(angle) if bearing.roller().is_some() => bearing.contact_angle = Some(angle),
+            Self::ContactAngle(angle) => bearing.set_contact_angle(angle),
+            Self::AxialPlay(play) => {
+                let (key, freedom) = ("bearing.axial_clearance_um", bearing.degrees_of_freedom);
+                if freedom == DegreesOfFreedom::Two {
+                    return Err(FreedomError::NeedsMore { key, least: 3, given: freedom.count() }.into());
+                }
+                if bearing.roller().is_none() {
+                    bearing.radial_clearance = bearing.clearance_of_play(play)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 impl WholeBearing {
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
-    fn into_bearing(self) -> Result<Bearing, Faults> {
+    fn into_bearing(self, freedom: DegreesOfFreedom) -> Result<Bearing, Faults> {
         // Lists get that length: no memory is taken for what no bearing has.
         ELEMENT_COUNT.check(self.element_count as f64)?;
-        let clearance = self.clearance()?;
         let element = self.rolling_element()?;
         let (conformity_inner, conformity_outer) = match element {
             RollingElement::Ball => self.conformities()?,
             RollingElement::CylindricalRoller(_) => (f64::INFINITY, f64::INFINITY),
         };
-        Ok(Bearing {
+        let mut bearing = Bearing {
             density: self.density(&element)?,
             element,
             element_count: self.element_count,
@@ -190,7 +287,13 @@ impl WholeBearing {
             pitch_diameter: self.pitch_diameter_mm / 1e3,
             conformity_inner,
             conformity_outer,
-            radial_clearance: clearance,
+            radial_clearance: DEFAULT_CLEARANCE_UM / 1e6,
+            degrees_of_freedom: freedom,
+            contact_angle: None,
+            operating_angle: self.angles.operating_angle,
+            shoulder_inner: self.angles.shoulders[0],
+            shoulder_outer: self.angles.shoulders[1],
+            gyroscopic: self.angles.gyroscopic,
             youngs_modulus: self.youngs_modulus_gpa * 1e9,
             poissons_ratio: self.poissons_ratio,
             element_mass: self.element_mass_g.map(|mass| mass / 1e3),
@@ -198,7 +301,9 @@ impl WholeBearing {
             hertz_outer: self.hertz_outer_n_m1_5,
             outer_compliance: self.outer_compliance_m_n,
             element_inertia: self.element_inertia,
-        })
+        };
+        self.clearance.put_into(&mut bearing)?;
+        Ok(bearing)
     }
 
     fn rolling_element(&self) -> Result<RollingElement, Faults> {
@@ -254,20 +359,6 @@ impl WholeBearing {
             }
             (None, Some(_), None) => {
                 Err(TableFault::Missing { key: OUTER, why: "bearing.conformity_inner is given without it" })
-            }
-        }
-    }
-
-    /// G = R_o − R_i − 2r (m). What a catalogue calls the radial internal clearance is how far one ring can be moved
-    /// against the other, from stop to stop: 2 G.
-    fn clearance(&self) -> Result<f64, TableFault> {
-        match (self.radial_clearance_um, self.internal_clearance_um) {
-            (Some(radial), None) => Ok(radial / 1e6),
-            (None, Some(internal)) => Ok(internal / 2e6),
-            (None, None) => Ok(DEFAULT_CLEARANCE_UM / 1e6),
-            (Some(_), Some(_)) => {
-                let (first, second) = ("bearing.radial_clearance_um", "bearing.internal_clearance_um");
-                Err(TableFault::Both { first, second })
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Why tables are no scene: keys that contradict each other, and all that the check of a scene refuses.
 
 use crate::NotInCatalogue;
-use brinell::scene::{BearingError, DefectError, Motion, SceneError, nearest};
+use brinell::scene::{BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, nearest};
 use std::error::Error;
 
 /// One reason. Messages name keys with their tables, by which their lines are looked up.
@@ -15,6 +15,12 @@ pub(crate) enum TableFault {
     Missing { key: &'static str, why: &'static str },
     #[error("{key} = {value} has no effect while {ring}.motion is \"{motion}\": it needs \"internal\"")]
     NotInternal { ring: &'static str, key: String, value: String, motion: Motion },
+    #[error(
+        "{key} = {value} has no effect with bearing.degrees_of_freedom = {}: it needs {}",
+        given.count(),
+        if *least == DegreesOfFreedom::Five { "5" } else { "3 or 5" }
+    )]
+    NeedsFreedom { key: String, value: String, least: DegreesOfFreedom, given: DegreesOfFreedom },
     #[error("{key} = {value} does not belong to contact.damping = \"{model}\", which takes {wanted}")]
     WrongDampingKey { key: &'static str, value: f64, model: &'static str, wanted: &'static str },
     #[error(
@@ -28,6 +34,11 @@ pub(crate) enum TableFault {
     NotInCatalogue(#[from] NotInCatalogue),
     #[error("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise")]
     OtherElements { name: &'static str, elements: &'static str },
+    #[error(
+        "bearing.catalogue = \"{name}\" has a contact angle of {angle} degrees: it needs bearing.degrees_of_freedom = 3 \
+         or 5"
+    )]
+    AngularInPlane { name: &'static str, angle: f64 },
     #[error("{key} is given: only rollers have it, and bearing.element is \"ball\"; it may be \"cylindrical-roller\"")]
     OnlyRollers { key: &'static str },
     #[error(
@@ -84,6 +95,14 @@ fn is_of_dimensions(error: &SceneError) -> bool {
                 | BearingError::NoInnerRaceway { .. }
                 | BearingError::NoRoom { .. }
                 | BearingError::TooLoose { .. }
+        ),
+        SceneError::Freedom(of) => matches!(
+            of,
+            FreedomError::OpenGroove { .. }
+                | FreedomError::TooSteep { .. }
+                | FreedomError::AxialPlay { .. }
+                | FreedomError::AngleAndClearance { .. }
+                | FreedomError::ShoulderTooHigh { .. }
         ),
         SceneError::Defect(of) => matches!(
             of,

@@ -7,12 +7,17 @@
 //! | key | default |
 //! |---|---|
 //! | `description` | empty |
-//! | `gravity_m_s2` | `[0, -9.81]` |
+//! | `gravity_m_s2` | `[0, -9.81]`; a third number is along z |
 //! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
 //! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
 //! | `bearing.catalogue` | none: dimensions and material are needed; or a name, such as `"6205"` or `"NU205"` |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
+//! | `bearing.degrees_of_freedom` | 2; or 3, rings move along z as well; or 5, and they tilt. Balls only |
+//! | `bearing.contact_angle_deg`, `.axial_clearance_um` | instead of a radial clearance: free contact angle; axial play |
+//! | `bearing.operating_angle_deg` | the free contact angle where given, else that of the start's equilibrium |
+//! | `bearing.shoulder_inner_mm`, `.shoulder_outer_mm` | none: nothing is said of shoulders |
+//! | `bearing.gyroscopic` | `"none"`; or `"outer"`, `"shared"`, of balls without inertia |
 //! | `bearing.outer_compliance_m_n` | 0: rings and seats are rigid |
 //! | `bearing.element_inertia` | `"full"`; or `"none"`: elements in radial balance at every instant |
 //! | `bearing.density_kg_m3` | from `element_mass_g`, which is then needed |
@@ -22,6 +27,7 @@
 //! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: along and across the contact at the largest force |
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
+//! | `contact.across_damping_s_m` | `damping_chi_s_m`; 0.5 with `"proportional"` |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
 //! | `cage.spacing_deg`, or `.spacing_rms_deg`; `.jitter_rms_deg`, `.wander` | 0: an even cage that turns evenly |
 //! | `cage.irregularity` | none; `"recorded"` instead of the above: 0.6 % and 0.4 % of the spacing, wander 0.3 % |
@@ -29,10 +35,13 @@
 //! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0; several as `[[defect]]` |
 //! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
-//! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]` |
+//! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]`; a third number is along z |
+//! | `.preload_n`; `.axial_damping_n_s_m`, `.axial_stiffness_n_m` of both | 0; as `damping_n_s_m`, `stiffness_n_m` |
+//! | `shaft.load_moment_n_m`, `.tilt_damping_n_m_s`, `.tilt_stiffness_n_m_rad` | `[0, 0]`, 0.5 (assumed), 0 |
+//! | `shaft.transverse_inertia_kg_m2`, `.polar_inertia_kg_m2` | 5e-3, 3e-3 (assumed) |
 //! | `shaft.initial_angle_deg`, `housing.initial_angle_deg` | 0 |
 //! | `housing.speed_hz` | none: the outer ring does not turn |
-//! | `sensor` | none; its `direction_deg` 90, `name` empty; several as `[[sensor]]` |
+//! | `sensor` | none; its `direction_deg` 90, or `direction` `[x, y, z]`, `name` empty; several as `[[sensor]]` |
 //! | `sensor.mass_kg`, `.stiffness_n_m`, `.damping_n_s_m` | 1, 8.8826e9, 9424.8 |
 //! | `sensor.mode` | none; several as `[[sensor.mode]]` below their sensor; its `quadrature_gain` 0, the rest needed |
 //! | `sensor.response` | none; a file instead of the modes |
@@ -54,8 +63,8 @@ mod defects;
 mod faults;
 mod film;
 mod one_or_more;
-mod pair_of_numbers;
 mod rings;
+mod short_lists;
 
 pub(crate) use bearing::BearingTable;
 pub(crate) use cage::CageTable;
@@ -67,12 +76,13 @@ pub(crate) use rings::SensorModeTable;
 pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 
 use brinell::scene::{
-    Contact, ContactEdge, ContactLaw, Damping, Experiment, Motion, Recorder, RecorderFilter, RepeatedInputs, Scene,
+    Contact, ContactEdge, ContactLaw, Damping, DegreesOfFreedom, Experiment, Motion, Recorder, RecorderFilter,
+    RepeatedInputs, Scene,
 };
 use one_or_more::OneOrMore;
-use pair_of_numbers::{optional, pair};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use short_lists::{Vector, pair};
 use std::f64::consts::TAU;
 
 /// A bearing in its surroundings. Every key carries its unit.
@@ -84,9 +94,9 @@ pub(crate) struct SceneFile {
     /// One line for the reader.
     #[serde(default)]
     description: String,
-    /// Gravity, x and y.
-    #[serde(default = "default_gravity", deserialize_with = "pair")]
-    gravity_m_s2: [f64; 2],
+    /// Gravity, x and y; a third number is along z.
+    #[serde(default = "default_gravity")]
+    gravity_m_s2: Vector,
     /// Dimensions and material.
     bearing: BearingTable,
     /// Law and damping of the contacts.
@@ -124,12 +134,14 @@ pub(crate) struct SceneFile {
 impl SceneFile {
     pub(crate) fn into_scene(self) -> Result<Scene, Faults> {
         let mut faults = Faults::default();
-        let bearing = faults.take(self.bearing.into_bearing());
+        let known = faults.take(self.bearing.freedom());
+        let freedom = known.unwrap_or(DegreesOfFreedom::Five);
+        let bearing = faults.take(self.bearing.into_bearing(freedom));
         let contact = faults.take(self.contact.into_contact(!self.defect.0.is_empty()));
         let (shaft_speed, shaft_angle) = (self.shaft.speed_hz, self.shaft.initial_angle_deg);
         let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
-        let shaft = faults.take(self.shaft.into_ring());
-        let housing = faults.take(self.housing.into_ring());
+        let shaft = faults.take(self.shaft.into_ring(freedom));
+        let housing = faults.take(self.housing.into_ring(freedom));
         let sensors = faults.take(self.sensor.into_sensors());
         let repeated_inputs = match self.host.map(|host| host.repeated_inputs) {
             Some(_) if [&shaft, &housing].into_iter().flatten().all(|ring| ring.motion != Motion::Host) => {
@@ -150,14 +162,16 @@ impl SceneFile {
             Some(housing),
             Some(sensors),
             Some(repeated_inputs),
-        ) = (inside, contact, shaft, housing, sensors, repeated_inputs)
+            Some(_),
+        ) = (inside, contact, shaft, housing, sensors, repeated_inputs, known)
         else {
             return Err(faults);
         };
         Ok(Scene {
             name: self.name,
             description: self.description,
-            gravity: self.gravity_m_s2,
+            gravity: self.gravity_m_s2.across,
+            axial_gravity: self.gravity_m_s2.axial.unwrap_or(0.0),
             bearing,
             contact,
             film: self.film.map(FilmTable::into_film),
@@ -180,8 +194,8 @@ impl SceneFile {
     }
 }
 
-fn default_gravity() -> [f64; 2] {
-    [0.0, -9.81]
+fn default_gravity() -> Vector {
+    Vector { across: [0.0, -9.81], axial: None }
 }
 
 /// Law and damping of the contacts.
@@ -195,10 +209,12 @@ pub(crate) struct ContactTable {
     damping: DampingModel,
     /// Hunt and Crossley's coefficient; 0.5 without it.
     damping_chi_s_m: Option<f64>,
+    /// Damping of a ball's motion across the groove; damping_chi_s_m without it.
+    across_damping_s_m: Option<f64>,
     /// Force up to which the contact map reaches.
     largest_force_n: Option<f64>,
     /// Cells along and across the contact at the largest force.
-    #[serde(default, deserialize_with = "optional")]
+    #[serde(default, deserialize_with = "pair")]
     cells: Option<[u32; 2]>,
     /// Error of the map over the largest force that is accepted.
     map_accuracy: Option<f64>,
@@ -240,6 +256,7 @@ impl ContactTable {
         Ok(Contact {
             law: self.law.unwrap_or(default),
             damping,
+            across_damping: self.across_damping_s_m,
             largest_force: self.largest_force_n,
             cells: self.cells,
             map_accuracy: self.map_accuracy,

@@ -2,10 +2,12 @@
 
 use super::faults::{Faults, TableFault};
 use super::one_or_more::OneOrMore;
-use super::pair_of_numbers::optional;
-use brinell::scene::{Motion, Ring, Sensor, SensorMode};
+use super::short_lists::{Vector, pair, triple};
+use brinell::scene::DegreesOfFreedom::{self, Five, Three, Two};
+use brinell::scene::{AxialSupport, FreedomError, Motion, Ring, SceneError, Sensor, SensorMode, TiltSupport};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::fmt::Display;
 
 /// The inner ring.
 #[derive(JsonSchema, Deserialize)]
@@ -18,15 +20,32 @@ pub(crate) struct ShaftTable {
     /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
-    /// Load, x and y; of a ring with mass only.
-    #[serde(default, deserialize_with = "optional")]
-    load_n: Option<[f64; 2]>,
+    /// Load, x and y, of a ring with mass only; a third number is along z.
+    load_n: Option<Vector>,
     /// Mass; 3.2638 without it.
     mass_kg: Option<f64>,
     /// Damping to the ground; 1376.8 without it.
     damping_n_s_m: Option<f64>,
     /// Stiffness to the ground; 0 without it.
     stiffness_n_m: Option<f64>,
+    /// Force of a preload spring along the axis, in the sense of the contact angle; 0 without it. This and the next two
+    /// with 3 or 5 degrees of freedom only.
+    preload_n: Option<f64>,
+    /// Damping to the ground along the axis; damping_n_s_m without it.
+    axial_damping_n_s_m: Option<f64>,
+    /// Stiffness to the ground along the axis; stiffness_n_m without it.
+    axial_stiffness_n_m: Option<f64>,
+    /// Moment about x and y; [0, 0] without it. This and the next four with 5 degrees of freedom only.
+    #[serde(default, deserialize_with = "pair")]
+    load_moment_n_m: Option<[f64; 2]>,
+    /// Moment of inertia about x or y; 5e-3 without it.
+    transverse_inertia_kg_m2: Option<f64>,
+    /// Moment of inertia about the axis; 3e-3 without it.
+    polar_inertia_kg_m2: Option<f64>,
+    /// Damping of tilt to the ground; 0.5 without it.
+    tilt_damping_n_m_s: Option<f64>,
+    /// Stiffness of tilt to the ground; 0 without it.
+    tilt_stiffness_n_m_rad: Option<f64>,
 }
 
 /// The outer ring.
@@ -40,59 +59,108 @@ pub(crate) struct HousingTable {
     /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
-    /// Load, x and y; of a ring with mass only.
-    #[serde(default, deserialize_with = "optional")]
-    load_n: Option<[f64; 2]>,
+    /// Load, x and y, of a ring with mass only; a third number is along z.
+    load_n: Option<Vector>,
     /// Mass; 6.638 without it.
     mass_kg: Option<f64>,
     /// Damping to the ground; 2210.7 without it.
     damping_n_s_m: Option<f64>,
     /// Stiffness to the ground; 1.51056e7 without it.
     stiffness_n_m: Option<f64>,
+    /// Force of a preload spring along the axis, in the sense of the contact angle; 0 without it. This and the next two
+    /// with 3 or 5 degrees of freedom only.
+    preload_n: Option<f64>,
+    /// Damping to the ground along the axis; damping_n_s_m without it.
+    axial_damping_n_s_m: Option<f64>,
+    /// Stiffness to the ground along the axis; stiffness_n_m without it.
+    axial_stiffness_n_m: Option<f64>,
 }
 
 impl ShaftTable {
-    pub(super) fn into_ring(self) -> Result<Ring, Faults> {
-        let support = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
-        ring("shaft", self.motion, self.load_n, support, Ring::default_shaft())
+    pub(super) fn into_ring(self, freedom: DegreesOfFreedom) -> Result<Ring, Faults> {
+        let default = Ring::default_shaft();
+        let mut keys = RingKeys { name: "shaft", motion: self.motion, freedom, faults: Faults::default() };
+        let across = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
+        let along = [self.preload_n, self.axial_damping_n_s_m, self.axial_stiffness_n_m];
+        let mut ring = keys.ring(self.load_n, across, along, default);
+        let moment = self.load_moment_n_m.map(|moment| format!("{moment:?}"));
+        keys.of("load_moment_n_m", moment, Five);
+        let mut number = |key, given: Option<f64>, default: f64| {
+            keys.of(key, given, Five);
+            given.unwrap_or(default)
+        };
+        let tilt = TiltSupport {
+            transverse_inertia: number(
+                "transverse_inertia_kg_m2",
+                self.transverse_inertia_kg_m2,
+                default.tilt.transverse_inertia,
+            ),
+            polar_inertia: number("polar_inertia_kg_m2", self.polar_inertia_kg_m2, default.tilt.polar_inertia),
+            damping: number("tilt_damping_n_m_s", self.tilt_damping_n_m_s, default.tilt.damping),
+            stiffness: number("tilt_stiffness_n_m_rad", self.tilt_stiffness_n_m_rad, default.tilt.stiffness),
+            load_moment: self.load_moment_n_m.unwrap_or_default(),
+        };
+        if self.motion == Motion::Internal {
+            ring.tilt = tilt;
+        }
+        keys.faults.into_result().map(|()| ring)
     }
 }
 
 impl HousingTable {
-    pub(super) fn into_ring(self) -> Result<Ring, Faults> {
-        let support = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
-        ring("housing", self.motion, self.load_n, support, Ring::default_housing())
+    pub(super) fn into_ring(self, freedom: DegreesOfFreedom) -> Result<Ring, Faults> {
+        let mut keys = RingKeys { name: "housing", motion: self.motion, freedom, faults: Faults::default() };
+        let across = [self.mass_kg, self.damping_n_s_m, self.stiffness_n_m];
+        let along = [self.preload_n, self.axial_damping_n_s_m, self.axial_stiffness_n_m];
+        let ring = keys.ring(self.load_n, across, along, Ring::default_housing());
+        keys.faults.into_result().map(|()| ring)
     }
 }
 
-/// A ring from its keys; `given` are mass, damping and stiffness.
-fn ring(
+/// Reads a ring's keys. One without effect is refused: whoever wrote it expects one.
+struct RingKeys {
     name: &'static str,
     motion: Motion,
-    load: Option<[f64; 2]>,
-    given: [Option<f64>; 3],
-    default: Ring,
-) -> Result<Ring, Faults> {
-    if motion == Motion::Internal {
-        let [mass, damping, stiffness] = given;
-        let (mass, damping) = (mass.unwrap_or(default.mass), damping.unwrap_or(default.damping));
-        let stiffness = stiffness.unwrap_or(default.stiffness);
-        return Ok(Ring { motion, load: load.unwrap_or_default(), mass, damping, stiffness });
-    }
-    // A key without effect is refused: whoever wrote it expects one.
-    let refuse =
-        |key: &str, value: String| TableFault::NotInternal { ring: name, key: format!("{name}.{key}"), value, motion };
-    let mut faults = Faults::default();
-    if let Some(load) = load {
-        faults.0.push(refuse("load_n", format!("{load:?}")));
-    }
-    for (key, value) in ["mass_kg", "damping_n_s_m", "stiffness_n_m"].into_iter().zip(given) {
-        if let Some(value) = value {
-            faults.0.push(refuse(key, value.to_string()));
+    freedom: DegreesOfFreedom,
+    faults: Faults,
+}
+
+impl RingKeys {
+    /// Keeps why a key that is given has no effect.
+    fn of(&mut self, key: &str, given: Option<impl Display>, least: DegreesOfFreedom) {
+        let Some(value) = given.map(|value| value.to_string()) else { return };
+        let key = format!("{}.{key}", self.name);
+        if self.freedom < least {
+            self.faults.0.push(TableFault::NeedsFreedom { key, value, least, given: self.freedom });
+        } else if self.motion != Motion::Internal {
+            self.faults.0.push(TableFault::NotInternal { ring: self.name, key, value, motion: self.motion });
         }
     }
-    faults.into_result()?;
-    Ok(Ring { motion, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 })
+
+    /// The ring; `across` are mass, damping and stiffness, `along` preload, damping and stiffness.
+    fn ring(&mut self, load: Option<Vector>, across: [Option<f64>; 3], along: [Option<f64>; 3], default: Ring) -> Ring {
+        self.of("load_n", load, Two);
+        for (key, given) in ["mass_kg", "damping_n_s_m", "stiffness_n_m"].into_iter().zip(across) {
+            self.of(key, given, Two);
+        }
+        for (key, given) in ["preload_n", "axial_damping_n_s_m", "axial_stiffness_n_m"].into_iter().zip(along) {
+            self.of(key, given, Three);
+        }
+        if self.motion != Motion::Internal {
+            return Ring { motion: self.motion, ..Ring::hosted() };
+        }
+        let [mass, damping, stiffness] = across;
+        let (damping, stiffness) = (damping.unwrap_or(default.damping), stiffness.unwrap_or(default.stiffness));
+        let [preload, axial_damping, axial_stiffness] = along;
+        let axial = AxialSupport {
+            load: load.and_then(|load| load.axial).unwrap_or(0.0),
+            preload: preload.unwrap_or(0.0),
+            damping: axial_damping.unwrap_or(damping),
+            stiffness: axial_stiffness.unwrap_or(stiffness),
+        };
+        let load = load.map_or([0.0; 2], |load| load.across);
+        Ring { load, mass: mass.unwrap_or(default.mass), damping, stiffness, axial, ..default }
+    }
 }
 
 /// An accelerometer on the housing.
@@ -101,8 +169,11 @@ fn ring(
 pub(crate) struct SensorTable {
     /// Name for descriptions.
     name: String,
-    /// Direction in which it measures, counter-clockwise from +x.
-    direction_deg: f64,
+    /// Direction in which it measures, counter-clockwise from +x; 90 without it.
+    direction_deg: Option<f64>,
+    /// The same as a vector along x, y and z, of any length; instead of the angle.
+    #[serde(deserialize_with = "triple")]
+    direction: Option<[f64; 3]>,
     /// Its mass.
     mass_kg: f64,
     /// Stiffness of its mount.
@@ -155,14 +226,26 @@ impl SensorTable {
                 .then_some(TableFault::Both { first: "sensor.response", second: "[[sensor.mode]]" });
             return Err(both.unwrap_or(TableFault::ResponseNotFitted(file)));
         }
-        Ok(Sensor {
+        let mut sensor = Sensor {
             name: self.name,
-            direction: self.direction_deg.to_radians(),
+            direction: self.direction_deg.map_or(Sensor::default().direction, f64::to_radians),
+            elevation: 0.0,
             mass: self.mass_kg,
             stiffness: self.stiffness_n_m,
             damping: self.damping_n_s_m,
             modes: self.mode.into_iter().map(SensorModeTable::into_mode).collect(),
-        })
+        };
+        match (self.direction_deg, self.direction) {
+            (Some(_), Some(_)) => {
+                return Err(TableFault::Both { first: "sensor.direction_deg", second: "sensor.direction" });
+            }
+            (None, Some([0.0, 0.0, 0.0])) => {
+                return Err(TableFault::Scene(SceneError::from(FreedomError::NoDirection)));
+            }
+            (None, Some(vector)) => sensor.set_direction(vector),
+            (_, None) => {}
+        }
+        Ok(sensor)
     }
 }
 
@@ -175,15 +258,15 @@ impl SensorModeTable {
 
 impl Default for SensorTable {
     fn default() -> Self {
-        let Sensor { name, direction, mass, stiffness, damping, modes: _ } = Sensor::default();
-        let (direction_deg, mode) = (direction.to_degrees(), Vec::new());
+        let Sensor { name, mass, stiffness, damping, .. } = Sensor::default();
         Self {
             name,
-            direction_deg,
+            direction_deg: None,
+            direction: None,
             mass_kg: mass,
             stiffness_n_m: stiffness,
             damping_n_s_m: damping,
-            mode,
+            mode: Vec::new(),
             response: None,
         }
     }

@@ -8,12 +8,16 @@ use std::fmt;
 type Mistaken = (&'static str, &'static str, &'static [(f64, &'static str)]);
 
 /// The first ending that fits counts.
-const MISTAKEN: [Mistaken; 18] = [
+const MISTAKEN: [Mistaken; 22] = [
     ("_m_s2", "m/s2", &[(1e-3, "mm/s2"), (9.806_65, "multiples of g"), (1e3, "km/s2")]),
     ("_kg_m3", "kg/m3", &[(1e3, "g/cm3"), (1e12, "t/mm3")]),
     // 1000^1.5.
     ("_n_m1_5", "N/m^1.5", &[(31_622.776_601_683_792, "N/mm^1.5")]),
     ("_n_s_m", "N s/m", &[(1e3, "N s/mm")]),
+    ("_n_m_s", "N m s/rad", &[(1e-3, "N mm s/rad")]),
+    ("_n_m_rad", "N m/rad", &[(1e-3, "N mm/rad")]),
+    ("_moment_n_m", "N m", &[(1e-3, "N mm")]),
+    ("_kg_m2", "kg m2", &[(1e-6, "kg mm2"), (1e-4, "kg cm2")]),
     ("_n_m", "N/m", &[(1e3, "N/mm"), (1e6, "N/um"), (1e-3, "mN/m")]),
     ("_m_n", "m/N", &[(1e-3, "mm/N"), (1e-6, "um/N"), (1e-9, "nm/N")]),
     ("_1_pa", "1/Pa", &[(1e-9, "1/GPa"), (1e-6, "1/MPa")]),

@@ -27,7 +27,7 @@ const DENSITIES: Range = [1e3, 25e3];
 const DIAMETERS: Range = [0.3, 300.0];
 const PITCHES: Range = [2.0, 5000.0];
 
-const USUAL: [Usual; 28] = [
+const USUAL: [Usual; 31] = [
     Usual {
         keys: &["bearing.element_diameter_mm"],
         range: Dimensions::diameters,
@@ -47,6 +47,21 @@ const USUAL: [Usual; 28] = [
         keys: &["bearing.groove_diameter_mm"],
         range: |of| of.diameter.map(|d| [1.0002 * d, 1.2 * d]),
         source: "conformities of 0.5001 to 0.6",
+    },
+    Usual {
+        keys: &["bearing.contact_angle_deg", "bearing.operating_angle_deg"],
+        range: |_| Some([5.0, 60.0]),
+        source: "angular contact bearings have 12 to 40 degrees, deep groove bearings under axial load fewer",
+    },
+    Usual {
+        keys: &["bearing.shoulder_inner_mm", "bearing.shoulder_outer_mm"],
+        range: |of| of.diameter.map(|d| [0.05 * d, 0.5 * d]),
+        source: "assumed: from a twentieth to half of the element's diameter",
+    },
+    Usual {
+        keys: &["bearing.axial_clearance_um"],
+        range: |of| of.diameter.map(|d| [1.0, 200.0 * d]),
+        source: "assumed: from a micrometre to a fifth of the element's diameter",
     },
     Usual {
         keys: &["bearing.radial_clearance_um", "bearing.internal_clearance_um"],
@@ -111,7 +126,7 @@ const USUAL: [Usual; 28] = [
         source: "speed times pitch diameter to 1.2e6 mm/min, what catalogues rate ball bearings for",
     },
     Usual {
-        keys: &["shaft.load_n", "housing.load_n"],
+        keys: &["shaft.load_n", "housing.load_n", "shaft.preload_n", "housing.preload_n"],
         range: |of| of.rating().map(|rating| [5e-4 * rating, 3.0 * rating]),
         source: "assumed: from 0.05 % to three times the static load rating by ISO 76",
     },
@@ -122,7 +137,13 @@ const USUAL: [Usual; 28] = [
         source: "assumed: from the rolling elements' own mass to what the static load rating lifts",
     },
     Usual {
-        keys: &["shaft.stiffness_n_m", "housing.stiffness_n_m", "sensor.stiffness_n_m"],
+        keys: &[
+            "shaft.stiffness_n_m",
+            "housing.stiffness_n_m",
+            "sensor.stiffness_n_m",
+            "shaft.axial_stiffness_n_m",
+            "housing.axial_stiffness_n_m",
+        ],
         range: |_| Some([1e5, 1e12]),
         source: "assumed: from soft mounts to solid steel",
     },
@@ -209,7 +230,8 @@ impl Dimensions {
     fn rating(&self) -> Option<f64> {
         let (element_count, element_diameter) = (self.count? as usize, self.diameter?);
         let (pitch_diameter, roller_length) = (self.pitch?, self.length);
-        let inside = Inside { element_count, element_diameter, pitch_diameter, roller_length, source: None };
+        let (contact_angle, source) = (None, None);
+        let inside = Inside { element_count, element_diameter, pitch_diameter, roller_length, contact_angle, source };
         Some(inside.static_rating()).filter(|rating| *rating > 0.0)
     }
 

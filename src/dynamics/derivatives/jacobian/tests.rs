@@ -102,6 +102,7 @@ pub(crate) fn lively_with(
         shaft_load: load(100.0),
         housing_load: load(-30.0),
         relative_speed: Quadratic([700.0, 8e6, 0.0]),
+        ..Excitation::default()
     };
     (model, excitation)
 }

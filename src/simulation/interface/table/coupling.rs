@@ -3,7 +3,6 @@
 //! These rows stand after all others, so that older ones keep their references.
 
 use super::builder::{Builder, REPEATED_INPUTS, RINGS};
-use super::rows::AXES;
 use super::variables::{Causality, Kind, Unit, Variability};
 use crate::scene::Motion;
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
@@ -16,7 +15,7 @@ impl Builder<'_> {
                 RingName::Shaft => ("shaft", "inner ring"),
                 RingName::Housing => ("housing", "outer ring"),
             };
-            for (axis, letter) in AXES.iter().enumerate() {
+            for (axis, letter) in ["x", "y"].into_iter().enumerate() {
                 let text = format!(
                     "Force of the bearing's contacts to hold on the {what} along {letter} over a next communication step of \
                      the same length; for a host that steps all units in parallel and holds inputs"
