@@ -1,5 +1,6 @@
 //! Event indicators, and what happens at an event.
 
+use crate::simulation::integration::Problem;
 use crate::simulation::integration::landing::watched;
 use crate::simulation::run::{Run, UpToDate};
 use crate::simulation::{Simulation, SimulationError};
@@ -65,8 +66,9 @@ impl Simulation {
         let progress = &state.progress;
         let now = model.kinematics(&excitation, 0.0, &progress.state);
         let paths = forces.contacts.paths(model, &progress.state);
+        let problem = Problem { model, excitation: &excitation };
         for at in watched(model, &progress.cells, true) {
-            let lead = at.lead(model, &now, paths, &mut forces.shortcuts.leads);
+            let lead = at.lead(problem, (0.0, paths), &now, &mut forces.shortcuts.leads);
             let frame = now.frames.of(at.defects.frame).angle;
             let direction = now.cage.angle + model.element_offset(at.element) + lead - frame;
             see(at.defects.within(at.cell, direction), at.defects.cell_at(direction), at.contact);

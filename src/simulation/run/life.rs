@@ -92,9 +92,10 @@ impl Simulation {
         let interface = Interface::of(&setup.scene);
         let (model, is_complete) = setup.first_model()?;
         let run = Run::new(model, &setup.scene, &interface);
+        let in_space = run.model.space.is_some();
         Ok(Self {
             present: Present::new(&run.model),
-            change: Change::new(run.model.element_count, run.model.sensor_modes.state_len()),
+            change: Change::new(run.model.element_count, run.model.sensor_modes.state_len(), in_space),
             ahead: Ahead::default(),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
             setup,

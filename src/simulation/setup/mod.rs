@@ -4,6 +4,7 @@ mod arrangement;
 mod maps;
 mod model;
 mod parameters;
+mod tracks;
 
 pub use arrangement::largest_force;
 pub use maps::{NeededMap, build_map, map_fingerprint, map_specification, needed_maps, stored_map};

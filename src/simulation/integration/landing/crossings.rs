@@ -71,13 +71,13 @@ pub(in crate::simulation) fn first_crossing(
     let [start, end] = [(span.from, &progress.state), (span.end(), &buffers.end)].map(|(tau, state)| Instant {
         now: model.kinematics(problem.excitation, tau, state),
         tau,
-        paths: state,
+        state,
     });
     let mut first: Option<Candidate> = None;
     for at in watched(model, &progress.cells, model.is_uneven()) {
         let frame = start.now.frames.of(at.defects.frame).angle;
         let direction = start.now.cage.angle + model.element_offset(at.element);
-        let begun = Begun { at, tau: start.tau, lead: start.lead(model, &at, pieces) };
+        let begun = Begun { at, tau: start.tau, lead: start.lead(problem, &at, pieces) };
         let travel = begun.travel(problem, &end, pieces);
         let Some(Ahead { angle, beyond }) = at.defects.ahead(at.cell, direction + begun.lead - frame, travel > 0.0)
         else {
@@ -109,7 +109,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         probe(workspace, problem, span, share, progress);
         let tau = span.from + share * span.length;
         let now = model.kinematics(problem.excitation, tau, &workspace.dense);
-        let there = Instant { now, tau, paths: &workspace.dense };
+        let there = Instant { now, tau, state: &workspace.dense };
         let made = begun.travel(problem, &there, &mut workspace.forces.shortcuts.leads) / way;
         let beyond = made >= 1.0;
         if beyond {
@@ -130,7 +130,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
 struct Instant<'a> {
     now: FramedKinematics,
     tau: f64,
-    paths: &'a [f64],
+    state: &'a [f64],
 }
 
 /// All contacts with the inner raceway that may meet a defect; with those with the outer one, if `outside`.
@@ -161,24 +161,26 @@ pub(in crate::simulation) fn watched<'a>(
 impl Instant<'_> {
     /// Angle by which a contact is seen ahead of its element's position in an even cage (rad): from the inner ring,
     /// and in an uneven cage.
-    fn lead(&self, model: &Model, at: &Watched, pieces: &mut LeadPieces) -> f64 {
-        at.lead(model, &self.now, self.paths, pieces)
+    fn lead(&self, problem: Problem, at: &Watched, pieces: &mut LeadPieces) -> f64 {
+        at.lead(problem, (self.tau, self.state), &self.now, pieces)
     }
 }
 
 impl Watched<'_> {
-    /// Angle by which it is seen ahead of its element's position in an even cage (rad), of elements at these paths.
+    /// Angle by which it is seen ahead of its element's position in an even cage (rad), in a state at an instant (s).
     pub(in crate::simulation) fn lead(
         &self,
-        model: &Model,
+        problem: Problem,
+        (tau, state): (f64, &[f64]),
         now: &FramedKinematics,
-        paths: &[f64],
         pieces: &mut LeadPieces,
     ) -> f64 {
-        let j = self.element;
+        let (model, j) = (problem.model, self.element);
         let of_cage = model.lead_with(j, now.cage_angle(), pieces);
         match self.contact {
-            Contact::Inner(_) | Contact::Own(_, 0) => model.inner_lead(j, paths[j], now, &of_cage) + of_cage.angle,
+            Contact::Inner(_) | Contact::Own(_, 0) => {
+                model.seen_from_inside(j, (problem.excitation, tau), state, now, &of_cage) + of_cage.angle
+            }
             _ => of_cage.angle,
         }
     }
@@ -191,6 +193,6 @@ impl Begun<'_> {
         let (cage, frame) =
             (&problem.excitation.cage, &problem.excitation.frames[self.at.defects.frame as usize].since);
         let even = (cage.at(to.tau) - cage.at(self.tau)) - (frame.at(to.tau) - frame.at(self.tau));
-        even + (to.lead(problem.model, &self.at, pieces) - self.lead)
+        even + (to.lead(problem, &self.at, pieces) - self.lead)
     }
 }
