@@ -1,5 +1,5 @@
-//! The pages `docs/tutorials/*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
-//! in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
+//! The pages `docs/tutorials/*.md` are transcripts: what a new user types and what comes back. Their commands are run
+//! here, in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
 //!
 //! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A
 //! block ```` ```python NAME ```` is a file that the user writes before. The last line counts lines and seconds.

@@ -45,6 +45,12 @@ fn tables_are_json_as_well() {
     for (rating, maker) in [("dynamic_rating_n", 14.0e3), ("static_rating_n", 7.85e3)] {
         assert!((bearing[rating].as_f64().unwrap() / maker - 1.0).abs() < 0.02, "{bearing}");
     }
+    let (out, errors) = said(&["stiffness", "er16k-tb2", "--json", "--no-figure", "--points", "20"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    // By law hertz 3598 N (docs/evidence/validation.md); the stiffest place is healthy, 58 N/µm.
+    assert!((found["critical_load_n"].as_f64().unwrap() - 3598.0).abs() < 1.0, "{out}");
+    assert!((found["stiffness_n_m"]["greatest"].as_f64().unwrap() / 58e6 - 1.0).abs() < 0.02, "{out}");
+    assert!(errors.contains("er16k-tb2-stiffness.csv"), "{errors}");
     let (out, _) = said(&["scenes", "--json"]);
     let scenes: Vec<Value> = serde_json::from_str(&out).unwrap();
     assert!(scenes.iter().any(|scene| scene["name"] == "er16k-tb1"), "{out}");
