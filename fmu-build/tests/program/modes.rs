@@ -68,7 +68,7 @@ fn rings_that_a_host_moves_hold_still_where_they_carry_the_load() {
 #[test]
 fn what_presses_no_element_is_refused() {
     let refused = |load: Option<f64>| {
-        let options = Options { load, points: Some(4), figure: false };
+        let options = Options { load, points: Some(4), figure: false, json: false };
         let folder = common::folder("modes-none");
         let error = modes::command(&Project::find(), &common::model("6205-hosted"), options, &folder).unwrap_err();
         assert!(fs::read_dir(&folder).unwrap().next().is_none());
