@@ -1,6 +1,6 @@
 //! Whole runs under the contact laws, as Markdown: events of one passage, and how far accelerations are apart.
 //!
-//! `cargo run --release --example contact_laws [-- STOP_S]`, some minutes; tables of `docs/evidence/contact.md`. Finer is
+//! `cargo run --release --example contact_laws [-- STOP_S]`, minutes; tables of `docs/evidence/contact.md`. Finer is
 //! twice the cells in both directions. Differences are those of the housing's vertical acceleration, sampled at 51.2
 //! kHz, from the finer `love`: root mean square and largest, each relative to that run's own. A struck spall is chaotic
 //! after some 30 ms; hence the short runs.

@@ -1,9 +1,9 @@
 """Writes the two profiles of 6205-spall-5deg-machine: the spall of its outer raceway, and the lobes of its inner one.
 
 Neither was measured. Their figures were fitted to what recordings of one machine with a spall of nominally 5 degrees
-show at 10 and 20 Hz, see docs/signals.md. Both edges of the spall are rounded: depth grows with the power 2.6 of the
-way, so that an element sinks without a jerk and strikes where it meets the flat floor. The spall is 6.4 degrees long at
-the surface, 4.5 at half its depth. The inner raceway has three lobes, as rings held in a chuck of three jaws get them:
+show at 10 and 20 Hz, see docs/explanation/signals.md. The spall's edges are rounded: depth grows with the power 2.6 of
+the way, so that an element sinks without a jerk and strikes where it meets the flat floor. The spall is 6.4 degrees
+long at the surface, 4.5 at half its depth. The inner raceway has three lobes, as rings held in a chuck of three jaws get them:
 depth A (1 - cos 3 phi) over 89 % of its circumference (a profile must leave a tenth free), which is where phi goes once
 round.
 

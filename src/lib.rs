@@ -24,6 +24,8 @@
 //!
 //! Data flows one way through the modules, and a module imports only from those above it:
 //! `numerics → scene → geometry → surface → contact → dynamics → simulation → recording`.
+#![cfg_attr(doc, doc = "\n")]
+#![cfg_attr(doc, doc = include_str!("../docs/explanation/theory.md"))]
 
 pub mod contact;
 pub mod dynamics;
@@ -35,10 +37,6 @@ pub mod simulation;
 pub mod surface;
 
 pub use simulation::SimulationError as Error;
-
-#[cfg(doc)]
-#[doc = include_str!("../docs/explanation/theory.md")]
-pub mod theory {}
 
 /// The example in README.md compiles and runs.
 #[cfg(doctest)]

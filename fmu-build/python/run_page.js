@@ -213,8 +213,9 @@ function drawSpectrum(graph, spectrum) {
 
 // The squared envelope of a band of the sensor's signal, as shares of its mean: amplitudes and the step of frequency.
 function envelope(signal, low, high) {
-  const n = 2 ** Math.floor(Math.log2(signal.values.length)), line = 1 / (n * signal.step);
-  const re = Float64Array.from(signal.values.subarray(0, n)), im = new Float64Array(n);
+  const count = signal.values.length, n = 2 ** Math.ceil(Math.log2(count)), line = 1 / (n * signal.step);
+  const [re, im] = [new Float64Array(n), new Float64Array(n)];
+  re.set(signal.values);
   Motion.transform(re, im);
   for (let k = 0; k < n; k++) {
     const inside = k < n / 2 && k * line >= low && k * line <= high;
@@ -222,11 +223,13 @@ function envelope(signal, low, high) {
     [re[k], im[k]] = inside ? [2 * re[k], -2 * im[k]] : [0, 0];
   }
   Motion.transform(re, im);
-  const square = re.map((v, i) => v * v + im[i] * im[i]), mean = square.reduce((sum, v) => sum + v, 0) / n;
-  const hann = square.map((v, i) => (v / mean - 1) * (1 - Math.cos((2 * Math.PI * (i + 0.5)) / n)));
-  const zero = new Float64Array(n);
-  Motion.transform(hann, zero);
-  return { step: line, y: hann.subarray(0, n / 2).map((v, k) => (2 * Math.hypot(v, zero[k])) / n) };
+  const square = re.subarray(0, count).map((v, i) => v * v + im[i] * im[i]);
+  const mean = square.reduce((sum, v) => sum + v, 0) / count;
+  // Four times as many lines as there are: a peak is seen wherever it is.
+  const [y, zero] = [new Float64Array(4 * n), new Float64Array(4 * n)];
+  y.set(square.map((v, i) => (v / mean - 1) * (1 - Math.cos((2 * Math.PI * (i + 0.5)) / count))));
+  Motion.transform(y, zero);
+  return { step: line / 4, y: y.subarray(0, 2 * n).map((v, k) => (2 * Math.hypot(v, zero[k])) / count) };
 }
 
 // Another band for the spectrum of the envelope, where the page has every sample.
@@ -239,7 +242,9 @@ function offerBand(graph, spectrum) {
     const { step, y } = envelope(signal, 1e3 * by("low").value, 1e3 * by("high").value);
     const shown = Math.min(y.length, Math.ceil(spectrum.shown / step));
     const x = Array.from({ length: shown }, (_, i) => i * step), last = spectrum.marks.length;
-    const top = 1.08 * y.subarray(Math.ceil(spectrum.step / step) + 2, shown).reduce((a, b) => Math.max(a, b), 0);
+    // Beyond what the window makes of 0 Hz.
+    const beyond = Math.ceil(2 / (signal.values.length * signal.step) / step);
+    const top = 1.08 * y.subarray(beyond, shown).reduce((a, b) => Math.max(a, b), 0);
     Plotly.restyle(graph, { x: [x], y: [Array.from(y.subarray(0, shown))] }, [last]);
     Plotly.relayout(graph, { "yaxis.range": [0, top] });
   });

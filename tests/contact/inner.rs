@@ -70,7 +70,7 @@ fn a_convex_raceway_lets_the_element_sink_half_as_much_again_as_a_concave_one() 
     assert!(forces(&mut inner, inside + 1e-6, past - 1.37e-3)[0] > 0.0);
 }
 
-/// `cargo test --workspace --test contact inner:: -- --ignored --nocapture` prints the rows of `docs/evidence/contact.md`.
+/// `cargo test --workspace --test contact inner:: -- --ignored --nocapture` prints rows of `docs/evidence/contact.md`.
 #[test]
 #[ignore = "takes minutes"]
 fn the_map_follows_the_grid_and_the_grid_a_finer_one() {

@@ -211,6 +211,9 @@ pub struct OverCageAngle {
     /// carry are added, by `modes` also those at an edge of a defect and where modes change much
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     pub(super) points: Option<u32>,
+    /// Print the summary as JSON; files are named on standard error
+    #[arg(long)]
+    pub(super) json: bool,
     #[command(flatten)]
     pub(super) drawn: Drawn,
 }
@@ -218,7 +221,7 @@ pub struct OverCageAngle {
 impl OverCageAngle {
     pub(super) fn options(&self) -> stiffness::Options {
         let points = self.points.map(|count| count as usize);
-        stiffness::Options { load: self.load, points, figure: !self.drawn.no_figure }
+        stiffness::Options { load: self.load, points, figure: !self.drawn.no_figure, json: self.json }
     }
 }
 

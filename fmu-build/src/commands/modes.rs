@@ -34,11 +34,15 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let stem = folder.join(&scene.name);
     let path = beside(&stem, "-modes.json");
     whole_file::write(&path, serde_json::to_string(&report)? + "\n")?;
-    println!("{}", path.display());
-    print!("{}", summary(&report));
+    options.tell(format_args!("{}\n", path.display()));
+    if options.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print!("{}", summary(&report));
+    }
     if options.figure {
         let python = Python::prepare(project)?;
-        print!("{}", python.run("modes.py", [stem])?);
+        options.tell(python.run("modes.py", [stem])?);
     }
     Ok(())
 }

@@ -11,6 +11,8 @@ use brinell_analysis::statics::{
     Balance, Bottom, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
 };
 
+use serde_json::{Value, json};
+
 use crate::package::Model;
 use crate::shared::{Project, Python, contact_map, csv, whole_file};
 
@@ -23,9 +25,16 @@ pub struct Options {
     pub points: Option<usize>,
     /// Whether to draw.
     pub figure: bool,
+    /// Whether standard output is the summary as JSON and nothing else; files are then named on standard error.
+    pub json: bool,
 }
 
 impl Options {
+    /// Names what was written, unless standard output is for JSON.
+    pub(crate) fn tell(&self, what: impl std::fmt::Display) {
+        if self.json { eprint!("{what}") } else { print!("{what}") }
+    }
+
     /// Refuses a load that is none.
     pub(crate) fn check(&self) -> Result<()> {
         if let Some(amount) = self.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
@@ -67,12 +76,12 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let stem = folder.join(&model.scene.name);
     let path = beside(&stem, "-stiffness.csv");
     whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
-    println!("{}", path.display());
+    options.tell(format_args!("{}\n", path.display()));
 
     if let Some(angle) = under_load {
         let path = beside(&stem, "-shaft-stiffness.csv");
         whole_file::write_with(&path, |mut out| write_over_shaft(&mut out, &bearing, angle))?;
-        println!("{}", path.display());
+        options.tell(format_args!("{}\n", path.display()));
     }
 
     let critical = bottom.as_ref().map(|bottom| anyhow::Ok((bottom, plain.critical_load()?))).transpose()?;
@@ -82,13 +91,17 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
         whole_file::write_with(&path, |mut out| {
             write_variations(&mut out, &plain, bottom, critical, radial_clearance, outer_compliance)
         })?;
-        println!("{}", path.display());
+        options.tell(format_args!("{}\n", path.display()));
     }
     let critical = critical.as_ref().map(|(bottom, critical)| (*bottom, critical.as_ref()));
-    print!("{}", summary(&plain, &balances, critical)?);
+    if options.json {
+        println!("{}", serde_json::to_string_pretty(&summary_json(&plain, &balances, critical))?);
+    } else {
+        print!("{}", summary(&plain, &balances, critical)?);
+    }
     if options.figure {
         let python = Python::prepare(project)?;
-        print!("{}", python.run("stiffness.py", [stem])?);
+        options.tell(python.run("stiffness.py", [stem])?);
     }
     Ok(())
 }
@@ -236,6 +249,28 @@ fn write_variations(
         row(2.0, bottom.path, clearance, compliance, &bearing.with_outer_compliance(compliance))?;
     }
     Ok(())
+}
+
+/// What [`summary`] says, in SI units but for degrees.
+fn summary_json(
+    bearing: &StaticBearing,
+    balances: &[Balance],
+    critical: Option<(&Bottom, Result<&CriticalLoad, &NoCriticalLoad>)>,
+) -> Value {
+    let extent = |quantity: fn(&Balance) -> f64| {
+        let [least, mean, greatest] = min_mean_max(balances, quantity);
+        json!({ "least": least, "mean": mean, "greatest": greatest })
+    };
+    let [x, y] = bearing.load();
+    let found = critical.as_ref().and_then(|(_, critical)| critical.as_ref().ok());
+    json!({
+        "load_n": [x, y],
+        "stiffness_n_m": extent(Balance::free_stiffness),
+        "held_stiffness_n_m": extent(Balance::held_stiffness),
+        "load_zone_deg": extent(|balance| balance.load_zone.to_degrees()),
+        "critical_load_n": found.map(|critical| critical.load),
+        "critical_load_reason": critical.and_then(|(_, critical)| critical.err().map(ToString::to_string)),
+    })
 }
 
 fn summary(

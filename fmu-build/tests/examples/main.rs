@@ -1,4 +1,5 @@
-//! The examples and the pages that name them: every command of theirs runs, on a short case, and its result is looked at.
+//! The examples and the pages that name them: every command of theirs runs, on a short case, and its result is looked
+//! at.
 //! Those that need more than fmpy and matplotlib have a Python environment of their own, made from
 //! `examples/requirements.txt`; it has half a gigabyte, and so they run in the nightly part.
 #![allow(clippy::unwrap_used)]

@@ -1,5 +1,5 @@
-//! The pages `docs/tutorials/*.md` are transcripts: what a new user types and what comes back. Their commands are run here,
-//! in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
+//! The pages `docs/tutorials/*.md` are transcripts: what a new user types and what comes back. Their commands are run
+//! here, in an empty folder each, and must say what the page says; `write_the_hours` writes the pages anew.
 //!
 //! In a block ```` ```console ```` each line that begins with `$ ` is a command, and what follows is what it said. A
 //! block ```` ```python NAME ```` is a file that the user writes before. The last line counts lines and seconds.
@@ -187,9 +187,9 @@ fn an_hour_with_a_data_set_is_what_happens() {
     if has_ross() {
         let page = is_what_happens("data-set.md");
         assert!(page.contains("note: 80 runs, 80 of them made now, 0 failed"), "{page}");
-        // What guesses is right of one run in four.
+        // What guesses is right of one run in four, of 80 within 5 % of that; this is three times as far off.
         let right = page.split("\nright: ").nth(1).unwrap().split(' ').next().unwrap();
-        assert!(right.parse::<f64>().unwrap() > 60.0, "{page}");
+        assert!(right.parse::<f64>().unwrap() > 40.0, "{page}");
     }
 }
 

@@ -19,7 +19,7 @@ fn made(scene: &str, folder: &str, options: Options) -> (PathBuf, Value) {
 
 #[test]
 fn an_assembly_with_a_spall_gives_lines_modes_and_a_figure() {
-    let options = Options { load: None, points: Some(20), figure: true };
+    let options = Options { load: None, points: Some(20), figure: true, json: false };
     let (folder, report) = made("er16k-tb2", "modes-tb2", options);
     let freedoms = report["freedoms"].as_array().unwrap().len();
     assert_eq!(freedoms, 9 + 2 + 2 + 1);
@@ -51,7 +51,7 @@ fn an_assembly_with_a_spall_gives_lines_modes_and_a_figure() {
 
 #[test]
 fn rings_that_a_host_moves_hold_still_where_they_carry_the_load() {
-    let options = Options { load: Some(800.0), points: Some(4), figure: false };
+    let options = Options { load: Some(800.0), points: Some(4), figure: false, json: false };
     let (_, report) = made("6205-hosted", "modes-hosted", options);
     assert_eq!(report["freedoms"].as_array().unwrap().len(), 9);
     assert_eq!(report["shaft_load_n"][1], -800.0);
@@ -68,7 +68,7 @@ fn rings_that_a_host_moves_hold_still_where_they_carry_the_load() {
 #[test]
 fn what_presses_no_element_is_refused() {
     let refused = |load: Option<f64>| {
-        let options = Options { load, points: Some(4), figure: false };
+        let options = Options { load, points: Some(4), figure: false, json: false };
         let folder = common::folder("modes-none");
         let error = modes::command(&Project::find(), &common::model("6205-hosted"), options, &folder).unwrap_err();
         assert!(fs::read_dir(&folder).unwrap().next().is_none());

@@ -285,6 +285,35 @@ fn the_moving_bearing_is_drawn_sixty_times_a_second() {
     assert!(cost < 1000.0 / 60.0, "{cost} ms a picture");
 }
 
+#[test]
+#[ignore = "opens a browser"]
+fn the_envelope_of_a_band_that_is_taken_has_the_programs_own_lines() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+        return;
+    };
+    let path = page("page-band", "er16k-tb1", &["--stop", "0.5"]);
+    let measured = path.with_file_name("measured.html");
+    fs::write(&measured, fs::read_to_string(&path).unwrap() + BAND).unwrap();
+    let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
+    let lines = dom.split("<pre id=\"lines\">").nth(1).unwrap().split('<').next().unwrap();
+    let ratios: Vec<f64> = lines.split(' ').map(|ratio| ratio.parse().unwrap()).collect();
+    // The band's ends are cut there and sloped in the program.
+    assert!(ratios.len() == 5 && ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.1), "{lines}");
+}
+
+/// Of the band that the page begins with: heights of the first multiples of BPFO over those of the program.
+const BAND: &str = r#"<pre id="lines"></pre><script>
+Promise.all(drawn).then(() => {
+  const spectrum = DATA.spectra.find((one) => one.band), mine = envelope(DATA.motion.signal, ...spectrum.band);
+  const there = { step: spectrum.step, y: numbers(spectrum.y) };
+  const highest = ({ step, y }, f) => Math.max(...y.subarray(Math.floor((f - 5) / step), Math.ceil((f + 5) / step)));
+  const at = spectrum.marks.find((mark) => mark.name === "BPFO").at.slice(0, 5);
+  document.getElementById("lines").textContent = at.map((f) => highest(mine, f) / highest(there, f)).join(" ");
+});
+</script>
+"#;
+
 /// Milliseconds of a picture, the mean of 200 over the run.
 const COST: &str = r#"<pre id="cost"></pre><script>
 Promise.all(drawn).then(() => {

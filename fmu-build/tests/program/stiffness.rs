@@ -26,7 +26,7 @@ fn made(model: &Model, folder: &str, options: Options) -> std::path::PathBuf {
 fn a_scene_with_a_defect_gives_two_tables_and_a_figure() {
     // Its contact map ends below the critical load.
     let model = common::model("er16k-tb2");
-    let folder = made(&model, "stiffness-tb2", Options { load: None, points: Some(20), figure: true });
+    let folder = made(&model, "stiffness-tb2", Options { load: None, points: Some(20), figure: true, json: false });
     let (header, rows) = read(&folder.join("er16k-tb2-stiffness.csv"));
     let column = |name: &str| header.iter().position(|cell| cell.starts_with(name)).unwrap();
     assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == header.len()));
@@ -49,7 +49,7 @@ fn a_healthy_bearing_has_no_critical_load_and_a_hosted_one_takes_a_load() {
     let folder = made(
         &common::model("6205-hosted"),
         "stiffness-hosted",
-        Options { load: Some(800.0), points: Some(10), figure: false },
+        Options { load: Some(800.0), points: Some(10), figure: false, json: false },
     );
     let (header, rows) = read(&folder.join("6205-hosted-stiffness.csv"));
     let load = header.iter().position(|cell| cell.starts_with("load.y")).unwrap();
@@ -63,7 +63,7 @@ fn a_healthy_bearing_has_no_critical_load_and_a_hosted_one_takes_a_load() {
 fn a_load_that_is_no_load_is_refused() {
     let model = common::model("er16k-tb1");
     for load in [0.0, -5.0, f64::NAN] {
-        let options = Options { load: Some(load), points: Some(2), figure: false };
+        let options = Options { load: Some(load), points: Some(2), figure: false, json: false };
         let error =
             stiffness::command(&Project::find(), &model, options, &common::folder("stiffness-none")).unwrap_err();
         assert!(error.to_string().contains("above 0"), "{error}");

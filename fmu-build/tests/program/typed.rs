@@ -24,11 +24,11 @@ const ELSEWHERE: [(&str, &str); 12] = [
     (". target/examples-env", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     ("pip install -r examples", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     (".ci/platforms", "tests/platforms.rs: all_platforms"),
-    ("sbatch ", "needs a cluster; its parts: tests/program/sweep.rs: parts"),
+    ("sbatch ", "tests/program/sweep.rs: parts_of_a_sweep_made_anywhere_join_to_the_bits_of_one_run"),
     ("valgrind ", "needs Valgrind"),
 ];
 /// What the pages' text says that a user has: a sweep, a speed, a recording.
-const SWEEP: &str = "scene = \"er16k-tb1\"\nruns = 2\nstop_s = 0.1\n[set]\ncontact.law = \"hertz\"\n";
+const SWEEP: &str = "scene = \"er16k-tb1\"\nruns = 18\nstop_s = 0.06\n[set]\ncontact.law = \"hertz\"\n";
 const SPEED: &str = "time_s,speed_hz\n0,10\n0.1,20\n0.2,20\n";
 
 /// Lines of the blocks ```` ```sh ```` of a page, continued lines joined.

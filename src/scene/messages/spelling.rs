@@ -19,9 +19,10 @@ pub fn nearest<'k>(known: impl IntoIterator<Item = &'k str>, word: &str) -> Opti
     let away = |other: &str| {
         let other = plain(other);
         let away = |wanted: &String| match other.starts_with(wanted) && !wanted.is_empty() {
-            true => (1, true),
+            // Of several that it begins the shortest.
+            true => (1, true, other.len()),
             // A swap is one letter off as well, and the likelier slip: no letter is another.
-            false => (strsim::osa_distance(&other, wanted), letters(&other) != letters(wanted)),
+            false => (strsim::osa_distance(&other, wanted), letters(&other) != letters(wanted), 0),
         };
         away(&wanted).min(away(&said))
     };
@@ -47,6 +48,7 @@ mod tests {
             assert_eq!(nearest(["slip", "solver", "6200", "6205"], wanted), expected, "{wanted}");
         }
         assert_eq!(nearest(["depth_um", "length_deg"], "depth"), Some("depth_um"));
+        assert_eq!(nearest(["er16k-tb1-damped", "er16k-tb1"], "er16k-tb"), Some("er16k-tb1"));
         assert_eq!(nearest(["depth_um", "length_deg"], "colour"), None);
         assert_eq!(nearest(["depth_um", "length_deg"], ""), None);
         let keys = ["pitch_diameter_mm", "element_diameter_mm", "roller_length_mm", "element_count"];

@@ -1,0 +1,42 @@
+//! `brinell paper`: which claims hold, from an empty folder, each part within a minute.
+#![allow(clippy::unwrap_used)]
+
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::common;
+
+/// What the program prints of a part, and its claims that do not hold.
+fn refuted(part: &str) -> Vec<String> {
+    let folder = common::folder(&format!("paper-{part}"));
+    let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let output = program.args(["paper", part, "--json", "--no-figure", "-o"]).arg(&folder).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    // Where there is data, its file's name follows.
+    let said: Value = serde_json::from_str(&text[..=text.rfind('}').unwrap()]).unwrap();
+    assert_eq!(said["part"], part);
+    let claims = said["claims"].as_array().unwrap();
+    assert!(claims.len() >= 2, "{text}");
+    claims.iter().filter(|claim| claim["holds"] == "no").map(|claim| claim["claim"].to_string()).collect()
+}
+
+#[test]
+fn tables_and_profile_hold_but_for_the_load_at_the_nominal_depth() {
+    assert_eq!(refuted("table2"), Vec::<String>::new());
+    assert_eq!(refuted("fig4"), Vec::<String>::new());
+    let refuted = refuted("table1");
+    assert!(refuted.len() == 1 && refuted[0].contains("nominal depth"), "{refuted:?}");
+}
+
+#[test]
+#[ignore = "computes half a minute of a core"]
+fn figures_hold_but_for_the_rise_at_the_nominal_depth_each_within_a_minute() {
+    for (part, expected) in [("fig1", 0), ("fig5", 0), ("fig6", 1)] {
+        let begin = Instant::now();
+        let refuted = refuted(part);
+        assert!(refuted.len() == expected && begin.elapsed() < Duration::from_secs(60), "{part}: {refuted:?}");
+    }
+}
