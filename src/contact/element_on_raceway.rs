@@ -60,6 +60,13 @@ impl ElementOnRaceway {
         }
     }
 
+    /// The same at a contact angle α (rad): along the raceway it has the curvature cos α/R_c of the track, a circle of
+    /// radius R_c about the ring's axis (Meusnier).
+    pub fn at_angle(bearing: &Bearing, raceway: RacewaySide, angle: f64) -> Self {
+        let raceway_radius = raceway.track_radius(bearing, angle) / libm::cos(angle);
+        Self { raceway_radius, ..Self::of(bearing, raceway) }
+    }
+
     /// Checks the radii.
     ///
     /// # Errors

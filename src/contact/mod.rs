@@ -25,6 +25,7 @@
 pub mod element_on_raceway;
 pub mod equivalent;
 pub mod error;
+pub mod groove;
 pub mod law;
 pub mod love;
 pub mod map;

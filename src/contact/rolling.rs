@@ -38,6 +38,15 @@ pub enum RacewaySide {
 }
 
 impl RacewaySide {
+    /// Radius R_c (m) of the track at a contact angle α (rad): R_o − r_go (1 − cos α), R_i + r_gi (1 − cos α).
+    pub fn track_radius(self, bearing: &Bearing, angle: f64) -> f64 {
+        let rise = bearing.groove_radii()[self as usize] * (1.0 - libm::cos(angle));
+        match self {
+            Self::Inner => self.radius(bearing) + rise,
+            Self::Outer => self.radius(bearing) - rise,
+        }
+    }
+
     /// Its radius at the groove's bottom (m).
     pub fn radius(self, bearing: &Bearing) -> f64 {
         match self {

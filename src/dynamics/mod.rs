@@ -9,3 +9,4 @@ pub mod equilibrium;
 pub mod motion;
 pub mod parameters;
 pub mod quasi_static;
+pub mod spatial;

@@ -9,7 +9,7 @@ use super::directions::{dot, radial};
 use super::kernel::InnerGap;
 use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
+use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Space, Stage};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::{Vector, turned};
@@ -96,6 +96,9 @@ pub struct Record {
     /// Path u (m) and absolute radial velocity w (m/s) of each element that is in balance at every instant; empty for
     /// others, whose state has them.
     pub balanced: [Row; 2],
+    /// In space: parts of the direction of the inner contact's force away from the inner ring's axis and along it, then
+    /// of the outer contact's from the outer ring's; empty in the plane.
+    pub meridians: [Row; 4],
 }
 
 impl Record {
@@ -104,6 +107,28 @@ impl Record {
     #[inline]
     pub fn paths<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
         if model.elements_in_balance() { &self.balanced[0] } else { state }
+    }
+
+    /// Axial position (m) of each ball in space; its slots are as those of the [paths](Self::paths).
+    pub fn axial_positions<'a>(&'a self, model: &Model, state: &'a [f64]) -> &'a [f64] {
+        let start = model.layout.axial().map_or(0, |[v, _]| v);
+        &self.paths(model, state)[start..]
+    }
+
+    /// Contact angle (rad) of element `j` on the inner (0) or the outer (1) raceway; 0 of a contact without force.
+    pub fn contact_angle(&self, space: &Space, j: usize, side: usize) -> f64 {
+        if [&self.inner, &self.outer][side][j] > 0.0 {
+            space.grooves[side].angle([0, 1].map(|part: usize| self.meridians[2 * side + part][j]))
+        } else {
+            0.0
+        }
+    }
+
+    /// θ_s − |α| − a/r_g (rad): the angle from the end of a contact's ellipse to the shoulder; negative where the
+    /// shoulder cuts the ellipse. Of a contact without force the angle to the groove's bottom.
+    pub fn shoulder_margin(&self, space: &Space, j: usize, side: usize) -> f64 {
+        let force = [&self.inner, &self.outer][side][j];
+        space.shoulder_margin(side, self.contact_angle(space, j, side), force)
     }
 
     /// Room for `slots` elements.
@@ -122,6 +147,7 @@ impl Record {
             outer_pushing: zeros(),
             path_rate: zeros(),
             balanced: [Row::zeros(0), Row::zeros(0)],
+            meridians: [(); 4].map(|()| Row::zeros(0)),
         }
     }
 }

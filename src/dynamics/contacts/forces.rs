@@ -9,6 +9,9 @@ use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;
 
+/// Forces and moments of the contacts on both rings, as [`Forces::rings`] says.
+pub type RingForces = [f64; 10];
+
 /// What the right-hand side found on its way. Its lists are made once.
 #[derive(Debug, Default)]
 pub struct Forces {
@@ -28,8 +31,9 @@ pub struct Forces {
     pub(in crate::dynamics) searched: Vec<Searched>,
     /// Number of elements.
     count: usize,
-    /// The bearing's force on the inner ring, then on the outer (N).
-    pub rings: [f64; 4],
+    /// The bearing's force on the inner ring along x and y, then on the outer (N); in space also its force along z and
+    /// its moments about x and y (N m) on the inner ring, then on the outer, which are 0 in the plane.
+    pub rings: RingForces,
     /// The frames of defects, where any contact asks for them.
     pub(in crate::dynamics) frames: Frames,
     /// The oil films.
@@ -89,8 +93,13 @@ impl Forces {
             (forces.non_smooth_inner, forces.non_smooth_contacts[0]) = (Vec::new(), Vec::new());
         }
         if model.elements_in_balance() {
+            forces.contacts.balanced = [(); 2].map(|()| Row::zeros(model.layout.radial_velocity));
+        }
+        if model.elements_in_balance() || model.space.is_some() {
             forces.searched = Vec::with_capacity(model.element_count);
-            forces.contacts.balanced = [(); 2].map(|()| Row::zeros(padded(model.element_count)));
+        }
+        if model.space.is_some() {
+            forces.contacts.meridians = [(); 4].map(|()| Row::zeros(padded(model.element_count)));
         }
         forces
     }
@@ -134,7 +143,7 @@ impl Forces {
                 block.outer[j % WIDEST] = 0.0;
                 self.non_smooth_outer.push(NonSmooth { element: j, cells: outer });
             }
-            if model.elements_in_balance() && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2]) {
+            if (model.elements_in_balance() || model.space.is_some()) && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2]) {
                 let block = &mut self.elements[j / WIDEST];
                 (block.inner[j % WIDEST], block.outer[j % WIDEST]) = (0.0, 0.0);
                 self.searched.push(Searched { element: j, cells: [inner, outer] });

@@ -12,7 +12,7 @@ mod non_smooth_contacts;
 mod shortcuts;
 
 pub use contact_lanes::Record;
-pub use forces::{Forces, UnsolvedContact};
+pub use forces::{Forces, RingForces, UnsolvedContact};
 pub use shortcuts::Shortcuts;
 
 pub(in crate::dynamics) use contact_lanes::Sums;

@@ -13,6 +13,7 @@
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
+use super::spatial_jacobian::SpatialJacobian;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::parameters::{
@@ -78,13 +79,15 @@ pub struct Jacobian {
     pub body_indices: [Option<BodyIndices>; BODIES],
     /// Where the elements' velocities begin in the state.
     pub radial_velocity: usize,
+    /// That of rings in space, in place of all but the derivative by time.
+    pub space: Option<Box<SpatialJacobian>>,
 }
 
 impl Jacobian {
     /// Room for a model's Jacobian.
     pub fn new(model: &Model) -> Self {
         let size = model.supports.size();
-        let elements = if model.elements_in_balance() { 0 } else { model.element_count };
+        let elements = if model.elements_in_balance() || model.space.is_some() { 0 } else { model.element_count };
         Self {
             elements: vec![ElementBlock::default(); elements],
             by_position: BodyMatrix::zeros(size, size),
@@ -92,6 +95,7 @@ impl Jacobian {
             by_time: Row::zeros(model.layout.len),
             body_indices: body_indices(&model.layout),
             radial_velocity: model.layout.radial_velocity,
+            space: model.space.as_ref().map(|space| Box::new(SpatialJacobian::new(model, space))),
         }
     }
 
@@ -105,6 +109,7 @@ impl Jacobian {
             by_time: Row::zeros(0),
             body_indices: [None; BODIES],
             radial_velocity: 1,
+            space: None,
         }
     }
 
@@ -114,26 +119,15 @@ impl Jacobian {
     /// assemblies, by less than 2 where rings are heavier than an element and by less than 3 where they are not.
     /// `tests/motion/fastest_eigenvalue.rs` compares it with all eigenvalues.
     pub fn fastest(&self) -> Fastest {
+        if let Some(space) = &self.space {
+            return space.fastest();
+        }
         let mut fastest = Fastest::default();
-        let mut consider = |by_position: f64, by_velocity: f64| {
-            // λ² = by_velocity λ + by_position
-            let half = 0.5 * by_velocity;
-            let square = half * half + by_position;
-            // Two real eigenvalues, or a pair of magnitude √(−by_position).
-            let (root, damping) = if square >= 0.0 {
-                (half.abs() + square.sqrt(), 1.0)
-            } else {
-                ((-by_position).sqrt(), -half / (-by_position).sqrt())
-            };
-            if root > fastest.eigenvalue {
-                fastest = Fastest { eigenvalue: root, damping: damping.clamp(0.0, 1.0) };
-            }
-        };
         for block in &self.elements {
-            consider(block.by_path, block.by_velocity);
+            consider(&mut fastest, block.by_path, block.by_velocity);
         }
         for i in (0..BODIES).filter(|&i| self.body_indices[i].is_some()) {
-            consider(self.by_own_position(i), self.by_velocity[(i, i)]);
+            consider(&mut fastest, self.by_own_position(i), self.by_velocity[(i, i)]);
         }
         fastest
     }
@@ -150,6 +144,9 @@ impl Jacobian {
 
     /// The whole matrix ∂(state')/∂(state), rows by columns, of a state of `len` slots; for studies.
     pub fn matrix(&self, len: usize) -> Vec<Vec<f64>> {
+        if let Some(space) = &self.space {
+            return space.matrix(len);
+        }
         let start = self.radial_velocity;
         let mut matrix = vec![vec![0.0; len]; len];
         for (j, block) in self.elements.iter().enumerate() {
@@ -176,6 +173,22 @@ impl Jacobian {
             }
         }
         matrix
+    }
+}
+
+/// Takes a motion into account that accelerates by its position (1/s²) and its velocity (1/s).
+pub(super) fn consider(fastest: &mut Fastest, by_position: f64, by_velocity: f64) {
+    // λ² = by_velocity λ + by_position
+    let half = 0.5 * by_velocity;
+    let square = half * half + by_position;
+    // Two real eigenvalues, or a pair of magnitude √(−by_position).
+    let (root, damping) = if square >= 0.0 {
+        (half.abs() + square.sqrt(), 1.0)
+    } else {
+        ((-by_position).sqrt(), -half / (-by_position).sqrt())
+    };
+    if root > fastest.eigenvalue {
+        *fastest = Fastest { eigenvalue: root, damping: damping.clamp(0.0, 1.0) };
     }
 }
 
@@ -219,6 +232,16 @@ impl Model {
         jacobian: &mut Jacobian,
         shortcuts: &mut Shortcuts,
     ) {
+        if let (Some(space), Jacobian { space: Some(of_space), by_time, .. }) = (&self.space, &mut *jacobian) {
+            return self.linearize_in_space(
+                space,
+                (excitation, tau),
+                cells,
+                state,
+                (of_space, by_time),
+                shortcuts,
+            );
+        }
         let start = self.layout.radial_velocity;
         let host = |motion: Motion, prescribed| {
             if motion == Motion::Host { prescribed_rate(prescribed, tau) } else { RingState::default() }

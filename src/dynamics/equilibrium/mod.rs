@@ -3,6 +3,7 @@
 mod error;
 mod resting;
 pub mod search;
+mod spatial_search;
 pub mod variation;
 
 pub use search::EquilibriumError;

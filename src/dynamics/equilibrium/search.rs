@@ -53,6 +53,9 @@ impl Model {
         cells: &Cells,
         state: &mut [f64],
     ) -> Result<(), EquilibriumError> {
+        if let Some(space) = &self.space {
+            return self.spatial_equilibrium(space, excitation, cells, state);
+        }
         let shortcuts = &mut Shortcuts::default();
         state.fill(0.0);
         let mut u = vec![0.0; self.element_count];

@@ -7,7 +7,7 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
-use crate::dynamics::parameters::{CageState, Excitation, LeadPieces, Model};
+use crate::dynamics::parameters::{CageState, Excitation, Layout, LeadPieces, Model};
 use crate::numerics::plane::turned;
 use crate::numerics::polynomials::Quintic;
 
@@ -40,6 +40,25 @@ impl Model {
         for (start, count) in rings.chain(layout.sensor_indices().map(|start| (start, 1))) {
             for i in start..start + count {
                 (out[i], out[i + count]) = basis.at(value(i), rate(i), rate(i + count));
+            }
+        }
+        if let Some([v, w_z]) = layout.axial() {
+            let slots = [Layout::POSITIONS, Layout::VELOCITIES];
+            for start in [layout.shaft, layout.housing].into_iter().flatten() {
+                for k in 2..layout.freedom.count() {
+                    let (x, rate_of_x) = (start + slots[0][k], start + slots[1][k]);
+                    (out[x], out[rate_of_x]) = basis.at(value(x), rate(x), rate(rate_of_x));
+                }
+            }
+            // v' = w_z − ż_o
+            let rings = ends.map(|end| {
+                self.ring_rates_in_space(excitation, end.cage.tau, end.derivative)[1].velocity[2]
+            });
+            let velocity = self.rings_in_space(excitation, cage.tau, out, None)[1].velocity[2];
+            for j in 0..self.element_count {
+                let second = [0, 1].map(|k: usize| ends[k].derivative[w_z + j] - rings[k]);
+                let (axial, axial_rate) = basis.at(value(v + j), rate(v + j), second);
+                (out[v + j], out[w_z + j]) = (axial, axial_rate + velocity);
             }
         }
         let housing = ends.map(|end| self.housing_state(excitation, end.cage.tau, end.state).velocity);

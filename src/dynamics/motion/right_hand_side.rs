@@ -173,6 +173,9 @@ impl<const RECORD: bool> Kernel for UnevenOrOiledDerivative<'_, RECORD> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Derivative { model, stage, derivative, forces } = self.0;
+        if let Some(space) = &model.space {
+            return model.spatial_derivative::<S, RECORD>(simd, space, &stage, derivative, forces);
+        }
         if model.elements_in_balance() {
             return model.balanced_derivative::<S, RECORD>(simd, &stage, derivative, forces);
         }

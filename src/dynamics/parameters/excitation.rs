@@ -133,6 +133,15 @@ impl WholeAngle {
     }
 }
 
+/// What acts on a ring beyond the plane: along z, and about x and y.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Beyond {
+    /// Prescribed position (m) and tilts (rad); zero when they are not prescribed.
+    pub motion: [Cubic; 3],
+    /// External load (N) and moments (N m).
+    pub load: [Quadratic; 3],
+}
+
 /// What acts from outside during one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Excitation {
@@ -152,6 +161,8 @@ pub struct Excitation {
     pub shaft_load: [Quadratic; 2],
     /// External load on the outer ring (N).
     pub housing_load: [Quadratic; 2],
+    /// What acts on the inner and on the outer ring beyond the plane.
+    pub beyond: [Beyond; 2],
     /// Speed of the inner ring against the outer (rad/s), which oil films follow.
     pub relative_speed: Quadratic,
 }

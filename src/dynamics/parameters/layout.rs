@@ -5,15 +5,21 @@
 //! rings' part to a multiple of four, so that they are treated several at a time. u is the roller path (ρ − (R_o − r),
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
+//!
+//! In space the two lists of the elements are `[u… v…]` and `[w… w_z…]`, with the axial position v and velocity w_z, and
+//! a ring has eight slots more, `z, tilt about x, about y, –` and their rates. Where there is the plane, it is laid out
+//! the same.
 
 use crate::numerics::lanes::{Partition, QUAD, padded};
-use crate::scene::{ElementInertia, Motion, Scene};
+use crate::scene::{DegreesOfFreedom, ElementInertia, Motion, Scene};
 
 /// Where a state is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     /// Number of elements Z; `u` starts at 0.
     pub element_count: usize,
+    /// In how many directions rings move.
+    pub freedom: DegreesOfFreedom,
     /// Start of `w`.
     pub radial_velocity: usize,
     /// Start of the inner ring's x, y, vx, vy.
@@ -34,7 +40,10 @@ pub struct Layout {
 impl Layout {
     /// Of a scene.
     pub(in crate::dynamics) fn new(scene: &Scene) -> Self {
-        let radial_velocity = padded(scene.bearing.element_count);
+        let freedom = scene.bearing.degrees_of_freedom;
+        let in_space = freedom != DegreesOfFreedom::Two;
+        let radial_velocity = padded(scene.bearing.element_count) * if in_space { 2 } else { 1 };
+        let ring = if in_space { 3 * QUAD } else { QUAD };
         let mut len = 2 * radial_velocity;
         let mut take = |wanted: bool, count: usize| {
             wanted.then(|| {
@@ -42,14 +51,15 @@ impl Layout {
                 len - count
             })
         };
-        let shaft = take(scene.shaft.motion == Motion::Internal, 4);
-        let housing = take(scene.housing.motion == Motion::Internal, 4);
+        let shaft = take(scene.shaft.motion == Motion::Internal, ring);
+        let housing = take(scene.housing.motion == Motion::Internal, ring);
         let sensor_count = scene.sensors.len();
         let sensors = take(true, 0).unwrap_or_default();
         len = sensors + QUAD * sensor_count;
         let element_count = scene.bearing.element_count;
         Self {
             element_count,
+            freedom,
             radial_velocity,
             shaft,
             housing,
@@ -60,6 +70,33 @@ impl Layout {
         }
     }
 
+    /// Slots of a ring's x, y, z and tilts about x and y, from its start on.
+    pub const POSITIONS: [usize; 5] = [0, 1, 4, 5, 6];
+    /// Those of their rates.
+    pub const VELOCITIES: [usize; 5] = [2, 3, 8, 9, 10];
+
+    /// Start of `v`, the elements' axial positions, and of `w_z`; `None` in the plane.
+    #[inline(always)]
+    pub fn axial(&self) -> Option<[usize; 2]> {
+        let half = self.radial_velocity / 2;
+        (self.freedom != DegreesOfFreedom::Two).then_some([half, self.radial_velocity + half])
+    }
+
+    /// Slots of a ring's coordinates beyond the plane and of their rates, from its start on.
+    fn beyond(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        (2..self.freedom.count()).map(|k| [Self::POSITIONS[k], Self::VELOCITIES[k]])
+    }
+
+    /// Starts of both rings' slots.
+    fn rings(&self) -> impl Iterator<Item = usize> + use<> {
+        [self.shaft, self.housing].into_iter().flatten()
+    }
+
+    /// Whether slot `i` is a coordinate beyond the plane of a ring (0), or its rate (1).
+    fn is_beyond(&self, i: usize, kind: usize) -> bool {
+        self.rings().any(|start| self.beyond().any(|slots| start + slots[kind] == i))
+    }
+
     /// Whether state `i` is a position; otherwise it is a velocity.
     #[inline]
     pub fn is_position(&self, i: usize) -> bool {
@@ -67,6 +104,7 @@ impl Layout {
         i < self.radial_velocity
             || within(self.shaft, 2)
             || within(self.housing, 2)
+            || self.is_beyond(i, 0)
             || self.sensor_indices().any(|start| i == start)
     }
 
@@ -78,7 +116,7 @@ impl Layout {
 
     /// The lists that the state is made up of.
     pub fn partition(&self) -> Partition {
-        Partition { count: self.element_count, rest: self.len - 2 * self.radial_velocity }
+        Partition { count: if self.axial().is_some() { self.radial_velocity } else { self.element_count }, rest: self.len - 2 * self.radial_velocity }
     }
 
     /// Whether slot `i` is a state's, not one that only fills a list up.
@@ -86,6 +124,9 @@ impl Layout {
         let within = |start: usize, count: usize| i >= start && i < start + count;
         within(0, self.element_count)
             || within(self.radial_velocity, self.element_count)
+            || self.axial().is_some_and(|starts| starts.iter().any(|&start| within(start, self.element_count)))
+            || self.is_beyond(i, 0)
+            || self.is_beyond(i, 1)
             || [self.shaft, self.housing].into_iter().flatten().any(|start| within(start, 4))
             || self.sensor_indices().any(|start| within(start, 2))
     }
@@ -103,6 +144,13 @@ impl Layout {
     /// Name of state `i` for messages.
     pub fn name(&self, i: usize) -> String {
         let w = self.radial_velocity;
+        if let Some([v, w_z]) = self.axial() {
+            for (start, end, what) in [(v, w, "axial position"), (w_z, 2 * w, "axial velocity")] {
+                if i >= start && i < end {
+                    return format!("the {what} of element {}", i - start + 1);
+                }
+            }
+        }
         if i < w {
             return format!("the path of element {}", i + 1);
         }
@@ -111,6 +159,12 @@ impl Layout {
         }
         let ring = |start: Option<usize>, count: usize| start.filter(|&s| i >= s && i < s + count).map(|s| i - s);
         let part = ["x", "y", "vx", "vy"];
+        for (start, name) in [(self.shaft, "shaft"), (self.housing, "housing")] {
+            if let Some(k) = ring(start, 12).filter(|_| self.is_beyond(i, 0) || self.is_beyond(i, 1)) {
+                let part = ["z", "tilt.x", "tilt.y", "", "vz", "tilt.vx", "tilt.vy", ""];
+                return format!("{name}.{}", part[k - 4]);
+            }
+        }
         if let Some(k) = ring(self.shaft, 4) {
             format!("shaft.{}", part[k])
         } else if let Some(k) = ring(self.housing, 4) {

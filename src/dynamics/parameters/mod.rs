@@ -9,20 +9,20 @@ mod layout;
 mod model;
 mod raceway;
 mod ring_motion;
-mod sensor_modes;
+mod spatial;
 mod supports;
 
-pub use excitation::{Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
+pub use excitation::{Beyond, Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
 pub use irregularity::{Irregularity, Lead, LeadPieces};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;
 pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Raceway, SMOOTH, SurfaceDefect};
-pub use sensor_modes::SensorModes;
-pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorSupport, Support, Supports};
+pub use spatial::{COORDINATES, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies, force_slot};
+pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorModes, SensorSupport, Support, Supports};
 
 pub(crate) use kinematics::Stage;
-pub(crate) use sensor_modes::StepEnds;
+pub(crate) use supports::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
 pub(in crate::dynamics) use film::{FilmsNow, OilFilms};

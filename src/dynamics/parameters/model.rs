@@ -7,8 +7,8 @@ use super::irregularity::{Irregularity, Lead, LeadPieces};
 use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
-use super::sensor_modes::SensorModes;
-use super::supports::Supports;
+use super::spatial::Space;
+use super::supports::{SensorModes, Supports};
 use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::contact::near_defect::LoveSolvers;
 use crate::geometry::kinematics::Ratios;
@@ -67,6 +67,8 @@ pub struct Model {
     /// The contacts with the raceways with their damping, of elements that are in balance without it at every instant;
     /// `None` for elements with inertia, whose contacts are damped themselves.
     pub(in crate::dynamics) dampers: Option<Box<[CompliantContact; 2]>>,
+    /// What rings and balls have beyond the plane; `None` where rings stay in it.
+    pub space: Option<Box<Space>>,
     /// Whether any contact asks for the frames of defects: all but those of an outer ring that does not turn.
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
@@ -129,6 +131,7 @@ impl Model {
             irregularity,
             films: Films::of(scene).map(Box::new),
             dampers,
+            space: Space::of(scene),
         }
     }
 
@@ -193,10 +196,10 @@ impl Model {
         self.irregularity.is_some()
     }
 
-    /// Whether each element needs what the plain bearing of dry contacts in an even cage does not.
+    /// Whether each element needs what the plain bearing of dry contacts in an even cage and in the plane does not.
     #[inline(always)]
     pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
-        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some()
+        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some() || self.space.is_some()
     }
 
     /// Whether elements are in radial balance at every instant, without inertia.

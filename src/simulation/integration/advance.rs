@@ -1,5 +1,6 @@
 //! How far a communication step has come, between its integration steps.
 
+use crate::dynamics::contacts::RingForces;
 use crate::simulation::integration::landing::Knot;
 
 /// How far a communication step has come.
@@ -11,7 +12,7 @@ pub struct Advance {
     pub(in crate::simulation) tau: f64,
     /// Impulse of the forces on both rings since the communication point, and before it as far as `before` goes back
     /// (N s).
-    pub(super) impulse: [f64; 4],
+    pub(super) impulse: RingForces,
     /// Time before the communication point that the impulse covers (s).
     pub(super) before: f64,
     /// The next knot to land on.
@@ -25,7 +26,7 @@ pub struct Advance {
 impl Advance {
     /// At the communication point, with `end` (s) to come, after so many integration steps.
     pub(in crate::simulation) fn new(end: f64, knot: Option<Knot>, first_count: u64) -> Self {
-        Self { end, tau: 0.0, impulse: [0.0; 4], before: 0.0, knot, simultaneous: 0, first_count }
+        Self { end, tau: 0.0, impulse: [0.0; 10], before: 0.0, knot, simultaneous: 0, first_count }
     }
 
     /// Whether it has come to its end.

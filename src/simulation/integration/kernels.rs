@@ -2,7 +2,7 @@
 
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
-use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::{Forces, RingForces};
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::motion::Known;
 use crate::dynamics::parameters::{CageState, Excitation, Model, Stage};
@@ -167,7 +167,7 @@ struct Stages<'a> {
     weights: [f64; LAST],
     forces: &'a mut Forces,
     /// Sum of weight × ring force.
-    sum: [f64; 4],
+    sum: RingForces,
 }
 
 impl RightHandSide for Stages<'_> {
@@ -180,7 +180,9 @@ impl RightHandSide for Stages<'_> {
             None => simd.outlined(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
             Some(_) => simd.outlined(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
         }
-        for (sum, force) in self.sum.iter_mut().zip(forces.rings) {
+        // In the plane the rest is 0.
+        let count = if model.space.is_some() { self.sum.len() } else { 4 };
+        for (sum, force) in self.sum.iter_mut().zip(forces.rings).take(count) {
             *sum += self.weights[stage] * force;
         }
     }

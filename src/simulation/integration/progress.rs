@@ -1,6 +1,7 @@
 //! The part of the state that the integration owns: plain numbers, all that its future depends on.
 
 use super::switching::Choice;
+use crate::dynamics::contacts::RingForces;
 use crate::dynamics::parameters::{Cells, Model};
 use crate::numerics::lanes::padded;
 use crate::numerics::lanes::row::Row;
@@ -41,8 +42,8 @@ pub struct Progress {
     pub due: Due,
     /// The recorder's rows under way; of no length where the scene has no recorder.
     pub under_way: Row,
-    /// Mean forces on inner and outer ring over the last communication step (N).
-    pub mean_force: [f64; 4],
+    /// Mean forces and moments on both rings over the last communication step (N, N m).
+    pub mean_force: RingForces,
     /// Accepted steps.
     pub steps: u64,
     /// Accepted steps among them of the implicit method.
@@ -51,6 +52,8 @@ pub struct Progress {
     pub rejected_steps: u64,
     /// Approaches near the defect that were computed.
     pub defect_lookups: u64,
+    /// Ends of steps at which a shoulder cuts a contact.
+    pub truncated_contacts: u64,
 }
 
 impl Progress {
@@ -67,11 +70,12 @@ impl Progress {
             choice: Choice::default(),
             due: Due::default(),
             under_way: Row::zeros(under_way),
-            mean_force: [0.0; 4],
+            mean_force: [0.0; 10],
             steps: 0,
             implicit_steps: 0,
             rejected_steps: 0,
             defect_lookups: 0,
+            truncated_contacts: 0,
         }
     }
 
@@ -83,6 +87,7 @@ impl Progress {
             Count::RejectedSteps => self.rejected_steps,
             Count::ContactSolves if solves_grids => self.defect_lookups,
             Count::MapLookups if !solves_grids => self.defect_lookups,
+            Count::TruncatedContacts => self.truncated_contacts,
             Count::ContactSolves | Count::MapLookups => 0,
         }
     }
@@ -99,5 +104,6 @@ impl Progress {
         (self.due, self.mean_force) = (other.due, other.mean_force);
         (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);
         (self.rejected_steps, self.defect_lookups) = (other.rejected_steps, other.defect_lookups);
+        self.truncated_contacts = other.truncated_contacts;
     }
 }

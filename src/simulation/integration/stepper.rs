@@ -362,11 +362,11 @@ impl Stepper<'_> {
     /// is prescribed.
     fn weigh_forces(&mut self, span: Span) {
         let Self { problem, workspace, progress, .. } = self;
-        workspace.weighted_force = [0.0; 4];
+        workspace.weighted_force = [0.0; 10];
         if problem.model.shaft.motion != Motion::Host && problem.model.housing.motion != Motion::Host {
             return;
         }
-        for i in 0..4 {
+        for i in 0..workspace.weighted_force.len() {
             workspace.weighted_force[i] = (workspace.first_force[i] + workspace.last_force[i]) / 12.0;
         }
         for share in LOBATTO {

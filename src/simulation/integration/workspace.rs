@@ -4,7 +4,7 @@
 //! from: 1e-5 of a path of 1 mm would be more than a loaded contact's whole approach.
 
 use super::progress::Progress;
-use crate::dynamics::contacts::Forces;
+use crate::dynamics::contacts::{Forces, RingForces};
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::parameters::{Excitation, Layout, Model, StepEnds};
 use crate::numerics::lanes::row::Row;
@@ -75,9 +75,9 @@ pub struct Workspace {
     pub(super) sensor_modes: Row,
     pub(super) scratch: Row,
     /// Sum over the stages of the step tried last of weight × ring force.
-    pub(super) weighted_force: [f64; 4],
-    pub(super) first_force: [f64; 4],
-    pub(super) last_force: [f64; 4],
+    pub(super) weighted_force: RingForces,
+    pub(super) first_force: RingForces,
+    pub(super) last_force: RingForces,
     /// Turns errors of all states into lengths; 0 where there is no state.
     pub(super) weights: Row,
     /// Largest error of the step tried last (m), infinite as soon as one state's is not finite.
@@ -103,9 +103,9 @@ impl Workspace {
             dense: Row::zeros(len),
             sensor_modes: Row::zeros(model.sensor_modes.state_len()),
             scratch: Row::zeros(len),
-            weighted_force: [0.0; 4],
-            first_force: [0.0; 4],
-            last_force: [0.0; 4],
+            weighted_force: [0.0; 10],
+            first_force: [0.0; 10],
+            last_force: [0.0; 10],
             weights: Row::from_fn(len, |i| weight(&model.layout, i)),
             largest_error: 0.0,
             largest_approach: 0.0,

@@ -6,7 +6,7 @@
 //! enter.
 
 use super::quantity::{Input, Parameter, Quantity as Q, RingName};
-use crate::scene::{DefectOn, ElementInertia, Motion, Scene};
+use crate::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Scene};
 use crate::simulation::interface::table::{Causality, Dependencies, Variable};
 
 /// The dependencies of all outputs, in the order of the table.
@@ -50,9 +50,14 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     let film = scene.film.is_some();
     let outer =
         if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
+    // A tilted outer ring meets its elements elsewhere, and elements that go round pass along its tilt.
+    let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
+    let outer = outer || (in_space && speed);
     match output {
         Q::Force(Shaft, _) | Q::ElementInnerForce(_) => inner,
-        Q::Force(Housing, _) | Q::ElementOuterForce(_) => outer,
+        Q::Force(Housing, _) | Q::ElementOuterForce(_) => {
+            outer || (in_space && matches!(input, Input::Position(Housing, 3..)))
+        }
         Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
         // Elements in balance are where their centrifugal force puts them.
@@ -60,7 +65,7 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
             Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {
-                scene.housing.motion == Motion::Host && scene.sensors[k].unit()[axis] != 0.0
+                scene.housing.motion == Motion::Host && axis < 3 && scene.sensors[k].unit_in_space()[axis] != 0.0
             }
             Input::Position(Shaft, _) | Input::Velocity(Shaft, _) => false,
             Input::Speed(_) | Input::Load(..) | Input::Acceleration(..) => false,
@@ -71,8 +76,13 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         // Tangential parts of the inner contacts, and the elements' inertia as the outer ring accelerates.
         Q::CageTorque => inner || matches!(input, Input::Acceleration(Housing, _) | Input::Load(Housing, _)),
         Q::ShaftTorque => inner,
-        // With inertia it is a state.
-        Q::ElementPath(_) => balanced && (position || speed),
+        // With inertia they are states.
+        Q::ElementPath(_) | Q::ElementAxial(_) => balanced && (position || speed),
+        // Where the contact is open the angle is 0, and that it is so follows rates.
+        Q::ContactAngle(_, 0) | Q::ShoulderMargin(_, 0) => inner,
+        Q::ContactAngle(..) | Q::ShoulderMargin(..) => {
+            outer || (in_space && matches!(input, Input::Position(Housing, 3..)))
+        }
         // States follow no input at once, and a mean is of the step before.
         Q::Position(..)
         | Q::Velocity(..)
@@ -105,6 +115,9 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
         | Q::CageTorque
         | Q::ShaftTorque
         | Q::ElementPath(_)
+        | Q::ElementAxial(_)
+        | Q::ContactAngle(..)
+        | Q::ShoulderMargin(..)
         | Q::ElementInnerForce(_)
         | Q::ElementOuterForce(_)
         | Q::Speed(_)
@@ -126,7 +139,17 @@ pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
     match parameter {
         // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
         Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RingMass(_) | Parameter::RingDamping(_) => false,
+        Parameter::AxialDamping(_)
+        | Parameter::TransverseInertia
+        | Parameter::PolarInertia
+        | Parameter::TiltDamping => false,
         Parameter::RadialClearance
+        | Parameter::ContactAngle
+        | Parameter::OperatingAngle
+        | Parameter::AcrossDamping
+        | Parameter::AxialStiffness(_)
+        | Parameter::Preload(_)
+        | Parameter::TiltStiffness
         | Parameter::ContactDamping
         | Parameter::ContactLaw
         | Parameter::CageSlip

@@ -5,10 +5,10 @@ use super::quantity::{Input, Parameter, Quantity, RingName};
 /// Where in the table the inputs of one ring stand.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::simulation) struct RingInputs {
-    pub(in crate::simulation) load: [Option<usize>; 2],
-    pub(in crate::simulation) position: [Option<usize>; 2],
-    pub(in crate::simulation) velocity: [Option<usize>; 2],
-    pub(in crate::simulation) acceleration: [Option<usize>; 2],
+    pub(in crate::simulation) load: [Option<usize>; 5],
+    pub(in crate::simulation) position: [Option<usize>; 5],
+    pub(in crate::simulation) velocity: [Option<usize>; 5],
+    pub(in crate::simulation) acceleration: [Option<usize>; 5],
 }
 
 /// Where in the table the inputs stand, and the tolerance.
@@ -17,7 +17,8 @@ pub(in crate::simulation) struct Inputs {
     /// Speed of the inner ring, and of an outer ring that turns.
     pub(in crate::simulation) speeds: [Option<usize>; 2],
     pub(in crate::simulation) tolerance: Option<usize>,
-    /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, or an output.
+    /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, an output, or rings
+    /// in space.
     pub(in crate::simulation) frames: bool,
     /// Inputs are the first so many rows.
     pub(in crate::simulation) count: usize,

@@ -2,7 +2,7 @@
 
 use super::quantity::{Quantity, RingName};
 use crate::dynamics::contacts::Forces;
-use crate::dynamics::parameters::{CageState, Excitation, Frame, Model, RingState};
+use crate::dynamics::parameters::{CageState, Excitation, Frame, Model, RingInSpace, RingState, force_slot};
 use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
@@ -37,6 +37,8 @@ pub struct Outputs<'a> {
     forces: &'a Forces,
     ring: [RingState; 2],
     acceleration: [Vector; 2],
+    /// Rings in space with their rates.
+    space: Option<[[RingInSpace; 2]; 2]>,
     sensors: [f64; MOST_SENSORS],
     angles: Angles,
     /// The nominal cage.
@@ -65,6 +67,10 @@ impl<'a> Outputs<'a> {
             forces,
             ring: [model.shaft_state(excitation, tau, state), model.housing_state(excitation, tau, state)],
             acceleration: model.ring_rates(excitation, tau, derivative).map(|ring| ring.velocity),
+            space: model.space.as_ref().map(|_| {
+                let rings = model.rings_in_space(excitation, tau, state, None);
+                [rings, model.ring_rates_in_space(excitation, tau, derivative)]
+            }),
             sensors,
             angles: Angles {
                 cage: start.cage + excitation.cage.at(tau),
@@ -82,9 +88,34 @@ impl<'a> Outputs<'a> {
         self.angles.cage + self.model.element_offset(j) + self.forces.element_lead(j)
     }
 
+    fn in_space(&self, of: impl Fn(&[[RingInSpace; 2]; 2]) -> f64) -> f64 {
+        self.space.as_ref().map_or(0.0, of)
+    }
+
+    /// Contact angle (rad) of element `j` on the inner (0) or the outer (1) raceway; 0 of a contact without force.
+    fn contact_angle(&self, j: usize, side: usize) -> f64 {
+        let Some(space) = &self.model.space else { return 0.0 };
+        self.forces.contacts.contact_angle(space, j, side)
+    }
+
+    /// Angle (rad) that a contact ellipse leaves to the shoulder; negative where the shoulder cuts it.
+    fn shoulder_margin(&self, j: usize, side: usize) -> f64 {
+        let Some(space) = &self.model.space else { return 0.0 };
+        self.forces.contacts.shoulder_margin(space, j, side)
+    }
+
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
         Some(match quantity {
+            // Beyond the plane.
+            Quantity::Position(ring, k @ 2..) => self.in_space(|[rings, _]| rings[ring.index()].position[k]),
+            Quantity::Velocity(ring, k @ 2..) => self.in_space(|[rings, _]| rings[ring.index()].velocity[k]),
+            Quantity::Acceleration(ring, k @ 2..) => self.in_space(|[_, rates]| rates[ring.index()].velocity[k]),
+            Quantity::Force(ring, k @ 2..) => self.forces.rings[force_slot(ring.index(), k)],
+            Quantity::Probe(k @ 2..) => self.in_space(|[[shaft, housing], _]| shaft.position[k] - housing.position[k]),
+            Quantity::ElementAxial(j) => self.forces.contacts.axial_positions(self.model, self.state)[j],
+            Quantity::ContactAngle(j, side) => self.contact_angle(j, side),
+            Quantity::ShoulderMargin(j, side) => self.shoulder_margin(j, side),
             Quantity::Position(ring, axis) => self.ring[ring.index()].position[axis],
             Quantity::Velocity(ring, axis) => self.ring[ring.index()].velocity[axis],
             Quantity::Acceleration(ring, axis) => self.acceleration[ring.index()][axis],

@@ -29,7 +29,8 @@ impl RingName {
     }
 }
 
-/// What a variable stands for in the model. `usize` arguments are the axis (0 is x, 1 is y) or the element (from 0).
+/// What a variable stands for in the model. `usize` arguments are the coordinate of a ring (0 is x, 1 is y, 2 is z, 3 and
+/// 4 the tilt about x and y; what acts along a tilt is a moment) or the element (from 0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Quantity {
@@ -51,6 +52,12 @@ pub enum Quantity {
     CageTorque,
     ElementAngle(usize),
     ElementPath(usize),
+    /// Axial position of a ball.
+    ElementAxial(usize),
+    /// Contact angle of an element on the inner (0) or the outer (1) raceway.
+    ContactAngle(usize, usize),
+    /// Angle that the contact ellipse leaves to the shoulder.
+    ShoulderMargin(usize, usize),
     ElementInnerForce(usize),
     ElementOuterForce(usize),
     ElementSpinAngle(usize),
@@ -58,7 +65,7 @@ pub enum Quantity {
     Parameter(Parameter),
 }
 
-/// What a host moves or loads the bearing with. `usize` is the axis.
+/// What a host moves or loads the bearing with. `usize` is the coordinate of the ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::simulation) enum Input {
     Speed(RingName),
@@ -76,6 +83,7 @@ pub enum Count {
     RejectedSteps,
     ContactSolves,
     MapLookups,
+    TruncatedContacts,
 }
 
 /// What a host may set before the start.
@@ -83,7 +91,10 @@ pub enum Count {
 #[allow(missing_docs)]
 pub enum Parameter {
     RadialClearance,
+    ContactAngle,
+    OperatingAngle,
     ContactDamping,
+    AcrossDamping,
     ContactLaw,
     CageSlip,
     CageInitialAngle,
@@ -93,6 +104,13 @@ pub enum Parameter {
     RingMass(RingName),
     RingDamping(RingName),
     RingStiffness(RingName),
+    AxialDamping(RingName),
+    AxialStiffness(RingName),
+    Preload(RingName),
+    TransverseInertia,
+    PolarInertia,
+    TiltDamping,
+    TiltStiffness,
     Tolerance,
     RecorderFolder,
 }
@@ -118,6 +136,9 @@ impl Quantity {
             | Self::CageTorque
             | Self::ElementAngle(_)
             | Self::ElementPath(_)
+            | Self::ElementAxial(_)
+            | Self::ContactAngle(..)
+            | Self::ShoulderMargin(..)
             | Self::ElementInnerForce(_)
             | Self::ElementOuterForce(_)
             | Self::ElementSpinAngle(_)

@@ -272,6 +272,8 @@ fn as_recorded(output: Quantity) -> Recorded {
         Quantity::SensorAcceleration(_) | Quantity::Acceleration(..) | Quantity::Force(..) => Recorded::Vibration,
         Quantity::CageAngle
         | Quantity::ElementPath(_)
+        | Quantity::ElementAxial(_)
+        | Quantity::ContactAngle(..)
         | Quantity::Probe(_)
         | Quantity::ElementInnerForce(_)
         | Quantity::ElementOuterForce(_) => Recorded::Instant,
@@ -287,6 +289,7 @@ fn as_recorded(output: Quantity) -> Recorded {
         | Quantity::CageTorque
         | Quantity::ElementAngle(_)
         | Quantity::ElementSpinAngle(_)
+        | Quantity::ShoulderMargin(..)
         | Quantity::Count(_)
         | Quantity::Parameter(_) => Recorded::Left,
     }

@@ -308,6 +308,7 @@ impl Simulation {
             // The spin angle is that of the defect against the element's own direction.
             Quantity::ElementSpinAngle(j) => variation.frames[Frame::Spin as usize][0] - self.element_turn(j),
             Quantity::ElementPath(j) => variation.path[j],
+            Quantity::ElementAxial(_) | Quantity::ContactAngle(..) | Quantity::ShoulderMargin(..) => f64::NAN,
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,

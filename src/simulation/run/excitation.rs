@@ -1,7 +1,7 @@
 //! What acts on the bearing from outside: from input variables and their derivatives to polynomials of time, and back.
 
 use super::state::{Ended, State};
-use crate::dynamics::parameters::{Cubic, Excitation, Quadratic, Turning};
+use crate::dynamics::parameters::{Beyond, Cubic, Excitation, Quadratic, Turning};
 use crate::geometry::kinematics::Ratios;
 use crate::simulation::interface::{Inputs, RingInputs};
 
@@ -16,7 +16,7 @@ pub(in crate::simulation) fn excitation(state: &State, inputs: &Inputs, ratios: 
         |index: Option<usize>, order: usize| index.filter(|_| stepping).and_then(|i| state.input_rates[i][order - 1]);
     let rate = |index: Option<usize>, order: usize| given(index, order).unwrap_or(0.0);
     let load = |index: Option<usize>| Quadratic([value(index), rate(index, 1), rate(index, 2)]);
-    let motion = |ring: &RingInputs, axis: usize| {
+    let motion = |ring: &RingInputs, axis: usize| -> Cubic {
         let (x, v, a) = (ring.position[axis], ring.velocity[axis], ring.acceleration[axis]);
         Cubic([
             value(x),
@@ -48,8 +48,12 @@ pub(in crate::simulation) fn excitation(state: &State, inputs: &Inputs, ratios: 
         },
         shaft: [motion(&shaft, 0), motion(&shaft, 1)],
         housing: [motion(&housing, 0), motion(&housing, 1)],
-        shaft_load: shaft.load.map(load),
-        housing_load: housing.load.map(load),
+        shaft_load: [0, 1].map(|axis| load(shaft.load[axis])),
+        housing_load: [0, 1].map(|axis| load(housing.load[axis])),
+        beyond: [&shaft, &housing].map(|ring| Beyond {
+            motion: [2, 3, 4].map(|axis| motion(ring, axis)),
+            load: [2, 3, 4].map(|axis| load(ring.load[axis])),
+        }),
         relative_speed: Quadratic([speed, acceleration, 0.0]),
     };
     if !stepping {
@@ -70,13 +74,29 @@ pub(in crate::simulation) fn follow(
     ended: &Excitation,
     step: f64,
 ) {
-    let rings = [(inputs.shaft, ended.shaft, ended.shaft_load), (inputs.housing, ended.housing, ended.housing_load)];
-    for (ring, motion, load) in rings {
+    let [of_shaft, of_housing] = ended.beyond;
+    let rings = [
+        (inputs.shaft, ended.shaft, ended.shaft_load, of_shaft),
+        (inputs.housing, ended.housing, ended.housing_load, of_housing),
+    ];
+    for (ring, motion, load, beyond) in rings {
         for axis in 0..2 {
             let ends = [
                 (ring.position[axis], motion[axis].at(step)),
                 (ring.velocity[axis], motion[axis].rate_at(step)),
                 (ring.load[axis], load[axis].at(step)),
+            ];
+            for (index, value) in ends {
+                if let Some(i) = index {
+                    state.reals[i] = value;
+                }
+            }
+        }
+        for (k, (motion, load)) in beyond.motion.iter().zip(&beyond.load).enumerate() {
+            let ends = [
+                (ring.position[2 + k], motion.at(step)),
+                (ring.velocity[2 + k], motion.rate_at(step)),
+                (ring.load[2 + k], load.at(step)),
             ];
             for (index, value) in ends {
                 if let Some(i) = index {

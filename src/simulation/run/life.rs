@@ -6,7 +6,7 @@ use crate::contact::map::ContactMaps;
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
 use crate::numerics::plane::Vector;
-use crate::scene::{ContactLaw, Scene, nearest};
+use crate::scene::{ContactLaw, DegreesOfFreedom, Scene, nearest};
 use crate::simulation::Method;
 use crate::simulation::error::{SimulationError, VariableError};
 use crate::simulation::integration::{Progress, StepCounts, Workspace};
@@ -130,7 +130,7 @@ impl Simulation {
         let recorder = Recorder::of(&scene, &table, &quantities);
         let progress = new_progress(&model, &recorder);
         let inputs = Inputs {
-            frames: scene.turns(),
+            frames: scene.turns() || scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two,
             ..Inputs::new(&quantities, table.iter().take_while(|v| v.causality == Causality::Input).count())
         };
         Ok(Self {
@@ -359,8 +359,7 @@ impl Simulation {
         self.evaluate(&excitation);
         let progress = &mut self.state.progress;
         self.forces.note_pushing(&mut progress.pushing);
-        let (shaft, housing) = (self.forces.shaft(), self.forces.housing());
-        progress.mean_force = [shaft.x, shaft.y, housing.x, housing.y];
+        progress.mean_force = self.forces.rings;
         self.up_to_date = UpToDate::State;
         Ok(())
     }

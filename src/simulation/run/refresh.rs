@@ -1,6 +1,7 @@
 //! Outputs are computed when somebody reads them.
 
 use super::life::{Simulation, UpToDate};
+use crate::dynamics::parameters::{Layout, force_slot};
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Outputs, Quantity, Solution};
 
@@ -31,7 +32,7 @@ impl Simulation {
         let solves_grids = self.model.solves_grids();
         for (i, quantity) in self.quantities.iter().enumerate().skip(self.inputs.count) {
             let value = match *quantity {
-                Quantity::MeanForce(ring, axis) => Some(progress.mean_force[2 * ring.index() + axis]),
+                Quantity::MeanForce(ring, axis) => Some(progress.mean_force[force_slot(ring.index(), axis)]),
                 Quantity::Count(count) => {
                     let count = progress.count(count, solves_grids);
                     self.state.integers[i] = i32::try_from(count).unwrap_or(i32::MAX);
@@ -51,7 +52,9 @@ impl Simulation {
     fn rest(&mut self) {
         let layout = &self.model.layout;
         for start in [layout.shaft, layout.housing].into_iter().flatten() {
-            self.derivative[start + 2..start + 4].fill(0.0);
+            for slot in Layout::VELOCITIES.into_iter().take(layout.freedom.count()) {
+                self.derivative[start + slot] = 0.0;
+            }
         }
         for i in layout.sensor_indices() {
             self.derivative[i + 1] = 0.0;
@@ -66,6 +69,20 @@ impl Simulation {
             let now = self.model.kinematics(&excitation, 0.0, &progress.state);
             let cells = &progress.cells;
             let paths = self.forces.contacts.paths(&self.model, &progress.state);
+            if let Some(stiffness) = self.model.stiffness_in_space(
+                &excitation,
+                (cells, &progress.state),
+                &self.forces.contacts,
+                &mut self.forces.shortcuts,
+            ) {
+                for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
+                    if let Quantity::Stiffness(row, column) = *quantity {
+                        *value = stiffness[row][column];
+                    }
+                }
+                self.up_to_date = UpToDate::Stiffness;
+                return;
+            }
             let jacobian = self.model.ring_jacobian(paths, cells, &now, &mut self.forces.shortcuts);
             for (value, quantity) in self.state.reals.iter_mut().zip(self.quantities.iter()) {
                 if let Quantity::Stiffness(row, column) = *quantity {

@@ -14,8 +14,8 @@ use crate::simulation::integration::{Advance, Control, Problem, Stepper};
 use crate::simulation::recorder::Due;
 use crate::simulation::step_error::StepError;
 
-/// Speeds of both rings, and position, velocity and acceleration of each along two axes.
-const MOST_INPUTS: usize = 2 + 2 * 6;
+/// Speeds of both rings, and position, velocity and acceleration of each along its five coordinates.
+const MOST_INPUTS: usize = 2 + 2 * 15;
 
 /// Inputs with their derivatives; slots beyond the last input are not used.
 #[derive(Debug, Clone, Copy, PartialEq)]

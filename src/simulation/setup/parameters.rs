@@ -34,6 +34,16 @@ pub(in crate::simulation) fn with_parameters(
         let Quantity::Parameter(parameter) = quantity else { continue };
         match parameter {
             Parameter::RadialClearance => changed.bearing.radial_clearance = value,
+            Parameter::ContactAngle => changed.bearing.set_contact_angle(value),
+            Parameter::OperatingAngle => changed.bearing.operating_angle = Some(value),
+            Parameter::AcrossDamping => changed.contact.across_damping = Some(value),
+            Parameter::AxialDamping(ring) => ring_of(&mut changed, ring).axial.damping = value,
+            Parameter::AxialStiffness(ring) => ring_of(&mut changed, ring).axial.stiffness = value,
+            Parameter::Preload(ring) => ring_of(&mut changed, ring).axial.preload = value,
+            Parameter::TransverseInertia => changed.shaft.tilt.transverse_inertia = value,
+            Parameter::PolarInertia => changed.shaft.tilt.polar_inertia = value,
+            Parameter::TiltDamping => changed.shaft.tilt.damping = value,
+            Parameter::TiltStiffness => changed.shaft.tilt.stiffness = value,
             Parameter::ContactDamping => {
                 changed.contact.damping = match changed.contact.damping {
                     Damping::HuntCrossley(_) => Damping::HuntCrossley(value),

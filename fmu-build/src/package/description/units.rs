@@ -31,6 +31,11 @@ fn definition(unit: Unit) -> (&'static str, [i8; 4]) {
         Unit::NewtonPerMetre => ("N/m", [1, 0, -2, 0]),
         Unit::NewtonSecondPerMetre => ("N.s/m", [1, 0, -1, 0]),
         Unit::SecondPerMetre => ("s/m", [0, -1, 1, 0]),
+        Unit::RadianPerSecondSquared => ("rad/s2", [0, 0, -2, 1]),
+        Unit::KilogramSquareMetre => ("kg.m2", [1, 2, 0, 0]),
+        Unit::NewtonMetreSecondPerRadian => ("N.m.s/rad", [1, 2, -1, -1]),
+        Unit::NewtonPerRadian => ("N/rad", [1, 1, -2, -1]),
+        Unit::NewtonMetrePerRadian => ("N.m/rad", [1, 2, -2, -1]),
     }
 }
 

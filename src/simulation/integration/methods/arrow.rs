@@ -8,6 +8,7 @@
 //! elimination with row pivoting. Rows of bodies without state are those of the unit matrix; with one sensor at most,
 //! only the rows that there may be are worked with.
 
+use super::spatial_arrow::SpatialArrow;
 use nalgebra::{Const, LU, SMatrix};
 
 use crate::dynamics::derivatives::{BodyIndices, Jacobian};
@@ -24,6 +25,8 @@ pub struct Arrow {
     shift: f64,
     elements: Vec<Eliminated>,
     bodies: Factors,
+    /// That of rings in space, in place of all else.
+    space: Option<Box<SpatialArrow>>,
 }
 
 /// Factors of the bodies' matrix.
@@ -64,11 +67,15 @@ impl Arrow {
         let many = model.supports.size() == BODIES;
         let bodies =
             if many { Factors::Many(Box::new(SMatrix::<f64, BODIES, BODIES>::identity().lu())) } else { Factors::None };
-        Self { shift: 1.0, elements: vec![Eliminated::default(); model.element_count], bodies }
+        let space = model.space.as_ref().map(|_| Box::new(SpatialArrow::new(model.element_count)));
+        Self { shift: 1.0, elements: vec![Eliminated::default(); model.element_count], bodies, space }
     }
 
     /// Eliminates `shift` − `jacobian`.
     pub fn factor(&mut self, jacobian: &Jacobian, shift: f64) {
+        if let (Some(arrow), Some(jacobian)) = (&mut self.space, &jacobian.space) {
+            return arrow.factor(jacobian, shift);
+        }
         self.shift = shift;
         if jacobian.by_position.nrows() == BODIES {
             let factors = self.eliminated::<BODIES>(jacobian).lu();
@@ -115,6 +122,9 @@ impl Arrow {
 
     /// Puts x into `b`, for the `jacobian` that was eliminated last.
     pub fn solve(&self, jacobian: &Jacobian, b: &mut [f64]) {
+        if let (Some(arrow), Some(jacobian)) = (&self.space, &jacobian.space) {
+            return arrow.solve(jacobian, b);
+        }
         let start = jacobian.radial_velocity;
         let inverse_shift = 1.0 / self.shift;
         // What the positions' right-hand sides alone would move.

@@ -6,6 +6,7 @@ pub(in crate::simulation) mod explicit;
 mod explicit_methods;
 pub mod phase_fitted;
 pub(in crate::simulation) mod rodas;
+mod spatial_arrow;
 mod stage_buffers;
 
 pub use arrow::Arrow;

@@ -1,6 +1,7 @@
 //! The variable table: name, reference, causality, unit and start value of everything a host can see.
 
 mod builder;
+mod coordinates;
 pub mod guid;
 mod parameters;
 mod rows;

@@ -2,25 +2,41 @@
 
 use super::builder::{Builder, CONTACT_LAWS, Limited, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
-use crate::scene::{Damping, DefectOn, Motion};
+use crate::scene::{Damping, DefectOn, DegreesOfFreedom, Motion};
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
+
+/// Largest contact angles of a scene (rad).
+const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
+const STEEPEST_OPERATING: f64 = 7.0 * std::f64::consts::PI / 18.0;
 
 impl Builder<'_> {
     pub(super) fn parameters(&mut self) {
         let scene = self.scene;
         let bearing = &scene.bearing;
-        self.parameter(
-            "bearing.radial_clearance",
-            "Radial internal clearance; negative is a preload",
-            Q::Parameter(Parameter::RadialClearance),
-            Unit::Metre,
-            Limited {
-                start: bearing.radial_clearance,
-                min: -bearing.element_diameter,
-                max: bearing.element_diameter,
-                nominal: 1e-5,
-            },
-        );
+        match bearing.contact_angle {
+            None => self.parameter(
+                "bearing.radial_clearance",
+                "Radial internal clearance; negative is a preload",
+                Q::Parameter(Parameter::RadialClearance),
+                Unit::Metre,
+                Limited {
+                    start: bearing.radial_clearance,
+                    min: -bearing.element_diameter,
+                    max: bearing.element_diameter,
+                    nominal: 1e-5,
+                },
+            ),
+            Some(start) => self.parameter(
+                "bearing.contact_angle",
+                "Free contact angle, positive where the bearing takes pushes of the inner ring towards +z",
+                Q::Parameter(Parameter::ContactAngle),
+                Unit::Radian,
+                Limited { start, min: -STEEPEST, max: STEEPEST, nominal: 0.1 },
+            ),
+        }
+        if self.in_space() {
+            self.angle_and_across_damping();
+        }
         self.damping();
         self.push(
             "contact.law",
@@ -66,6 +82,30 @@ impl Builder<'_> {
                 Q::Parameter(Parameter::RecorderFolder),
             );
         }
+    }
+
+    /// The operating angle, and the damping across the groove.
+    fn angle_and_across_damping(&mut self) {
+        let (bearing, contact) = (&self.scene.bearing, &self.scene.contact);
+        self.parameter(
+            "bearing.operating_angle",
+            "Contact angle for which the cage's speed, the elements' spin and the tracks are worked out",
+            Q::Parameter(Parameter::OperatingAngle),
+            Unit::Radian,
+            Limited {
+                start: bearing.given_operating_angle().unwrap_or(0.0),
+                min: 0.0,
+                max: STEEPEST_OPERATING,
+                nominal: 0.1,
+            },
+        );
+        self.parameter(
+            "contact.across_damping",
+            "Damping of balls across the grooves, Hunt-Crossley constant",
+            Q::Parameter(Parameter::AcrossDamping),
+            Unit::SecondPerMetre,
+            Limited { start: contact.damping_across(), min: 0.0, max: 1e3, nominal: 0.5 },
+        );
     }
 
     /// Where each defect is.
@@ -157,5 +197,82 @@ impl Builder<'_> {
             Unit::NewtonPerMetre,
             Limited { start: parts.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
         );
+        if self.in_space() {
+            self.axial_parameters(ring);
+            if ring == RingName::Shaft && self.scene.bearing.degrees_of_freedom == DegreesOfFreedom::Five {
+                self.tilt_parameters();
+            }
+        }
+    }
+
+    /// What holds a ring along the axis.
+    fn axial_parameters(&mut self, ring: RingName) {
+        let (name, what, of) = match ring {
+            RingName::Shaft => ("shaft", "inner ring", self.scene.shaft.axial),
+            RingName::Housing => ("housing", "outer ring", self.scene.housing.axial),
+        };
+        for (key, text, parameter, unit, limited) in [
+            (
+                "axial_damping",
+                "Viscous damping along z",
+                Parameter::AxialDamping(ring),
+                Unit::NewtonSecondPerMetre,
+                Limited { start: of.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
+            ),
+            (
+                "axial_stiffness",
+                "Support stiffness along z",
+                Parameter::AxialStiffness(ring),
+                Unit::NewtonPerMetre,
+                Limited { start: of.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
+            ),
+            (
+                "preload",
+                "Force of a preload spring, in the sense of the contact angle",
+                Parameter::Preload(ring),
+                Unit::Newton,
+                Limited { start: of.preload, min: 0.0, max: 1e9, nominal: 100.0 },
+            ),
+        ] {
+            self.parameter(&[name, ".", key].concat(), &[text, " of the ", what].concat(), Q::Parameter(parameter), unit, limited);
+        }
+    }
+
+    /// What tilts and holds the inner ring.
+    fn tilt_parameters(&mut self) {
+        let of = self.scene.shaft.tilt;
+        for (key, text, parameter, unit, limited) in [
+            (
+                "transverse_inertia",
+                "Moment of inertia about x or y",
+                Parameter::TransverseInertia,
+                Unit::KilogramSquareMetre,
+                Limited { start: of.transverse_inertia, min: 1e-12, max: 1e9, nominal: 1e-3 },
+            ),
+            (
+                "polar_inertia",
+                "Moment of inertia about z",
+                Parameter::PolarInertia,
+                Unit::KilogramSquareMetre,
+                Limited { start: of.polar_inertia, min: 1e-12, max: 1e9, nominal: 1e-3 },
+            ),
+            (
+                "tilt_damping",
+                "Viscous damping of the tilt",
+                Parameter::TiltDamping,
+                Unit::NewtonMetreSecondPerRadian,
+                Limited { start: of.damping, min: 0.0, max: 1e12, nominal: 1.0 },
+            ),
+            (
+                "tilt_stiffness",
+                "Support stiffness of the tilt",
+                Parameter::TiltStiffness,
+                Unit::NewtonMetrePerRadian,
+                Limited { start: of.stiffness, min: 0.0, max: 1e15, nominal: 1e4 },
+            ),
+        ] {
+            let text = [text, " of the inner ring and what moves with it"].concat();
+            self.parameter(&["shaft.", key].concat(), &text, Q::Parameter(parameter), unit, limited);
+        }
     }
 }

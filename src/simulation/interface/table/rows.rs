@@ -2,6 +2,7 @@
 //!
 //! Inputs come first, then outputs, then parameters. A variable's index is its FMI value reference.
 
+use super::coordinates::{Along, COORDINATES, name, stiffness_name};
 use crate::scene::{Motion, Scene};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};
 use crate::simulation::interface::table::builder::{Builder, RINGS};
@@ -17,8 +18,6 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.into_rows()
 }
 
-const AXES: [&str; 2] = ["x", "y"];
-
 /// Sizes of an input: from -`largest` to `largest`, in its unit.
 #[derive(Debug, Clone, Copy)]
 struct Size {
@@ -30,37 +29,41 @@ struct Size {
 struct Prescribed {
     /// What the axis has before it in the name.
     prefix: &'static str,
-    noun: &'static str,
+    noun: Along<&'static str>,
     quantity: fn(RingName, usize) -> Quantity,
-    unit: Unit,
-    size: Size,
+    unit: Along<Unit>,
+    size: Along<Size>,
 }
 
 const PRESCRIBED: [Prescribed; 3] = [
     Prescribed {
         prefix: "",
-        noun: "Position",
+        noun: Along { axis: "Position", tilt: "Tilt" },
         quantity: Q::Position,
-        unit: Unit::Metre,
-        size: Size { largest: 0.01, nominal: 1e-5 },
+        unit: Along { axis: Unit::Metre, tilt: Unit::Radian },
+        size: Along {
+            axis: Size { largest: 0.01, nominal: 1e-5 },
+            tilt: Size { largest: 0.05, nominal: 1e-3 },
+        },
     },
     Prescribed {
         prefix: "v",
-        noun: "Velocity",
+        noun: Along { axis: "Velocity", tilt: "Tilting velocity" },
         quantity: Q::Velocity,
-        unit: Unit::MetrePerSecond,
-        size: Size { largest: 1e3, nominal: 1e-2 },
+        unit: Along { axis: Unit::MetrePerSecond, tilt: Unit::RadianPerSecond },
+        size: Along { axis: Size { largest: 1e3, nominal: 1e-2 }, tilt: Size { largest: 1e4, nominal: 1.0 } },
     },
     Prescribed {
         prefix: "a",
-        noun: "Acceleration",
+        noun: Along { axis: "Acceleration", tilt: "Tilting acceleration" },
         quantity: Q::Acceleration,
-        unit: Unit::MetrePerSecondSquared,
-        size: Size { largest: 1e9, nominal: 10.0 },
+        unit: Along { axis: Unit::MetrePerSecondSquared, tilt: Unit::RadianPerSecondSquared },
+        size: Along { axis: Size { largest: 1e9, nominal: 10.0 }, tilt: Size { largest: 1e10, nominal: 1000.0 } },
     },
 ];
 const SPEED: Size = Size { largest: 1e5, nominal: 100.0 };
-const LOAD: Size = Size { largest: 1e9, nominal: 1000.0 };
+const LOAD: Along<Size> =
+    Along { axis: Size { largest: 1e9, nominal: 1000.0 }, tilt: Size { largest: 1e9, nominal: 10.0 } };
 
 impl Builder<'_> {
     fn inputs(&mut self) {
@@ -79,34 +82,38 @@ impl Builder<'_> {
             self.input("housing.speed", text, quantity, unit, speed, SPEED);
         }
         for ring in RINGS {
-            let (name, what, load) = match ring {
-                RingName::Shaft => ("shaft", "inner ring", scene.shaft.load),
-                RingName::Housing => ("housing", "outer ring", scene.housing.load),
+            let (of, what, parts) = match ring {
+                RingName::Shaft => ("shaft", "inner ring", scene.shaft),
+                RingName::Housing => ("housing", "outer ring", scene.housing),
             };
+            let [m_x, m_y] = parts.tilt.load_moment;
+            let loads = [parts.load[0], parts.load[1], parts.axial.load, m_x, m_y];
             match self.motion(ring) {
                 Motion::Internal => {
-                    for (axis, letter) in AXES.iter().enumerate() {
+                    for axis in self.moving(ring) {
+                        let [letter, along] = COORDINATES[axis];
                         self.input(
-                            &format!("{name}.load.{letter}"),
-                            &format!("External load on the {what} along {letter}"),
+                            &[of, [".load.", ".load_moment."][usize::from(axis > 2)], letter].concat(),
+                            &format!("External {} on the {what} {along}{letter}", ["load", "moment"][usize::from(axis > 2)]),
                             Q::Load(ring, axis),
-                            Unit::Newton,
-                            load[axis],
-                            LOAD,
+                            Along { axis: Unit::Newton, tilt: Unit::NewtonMetre }.of(axis),
+                            loads[axis],
+                            LOAD.of(axis),
                         );
                     }
                 }
                 Motion::Host => {
                     for Prescribed { prefix, noun, quantity, unit, size } in PRESCRIBED {
-                        for (axis, letter) in AXES.iter().enumerate() {
+                        for axis in self.moving(ring) {
+                            let [letter, along] = COORDINATES[axis];
                             let optional = if prefix == "a" { " (optional, extrapolates within the step)" } else { "" };
                             self.input(
-                                &format!("{name}.{prefix}{letter}"),
-                                &format!("{noun} of the {what} along {letter}{optional}"),
+                                &name(of, prefix, axis),
+                                &format!("{} of the {what} {along}{letter}{optional}", noun.of(axis)),
                                 quantity(ring, axis),
-                                unit,
+                                unit.of(axis),
                                 0.0,
-                                size,
+                                size.of(axis),
                             );
                         }
                     }
@@ -121,14 +128,25 @@ impl Builder<'_> {
             self.ring_outputs(ring);
         }
         self.turning_outputs();
-        for (row, a) in AXES.iter().enumerate() {
-            for (column, b) in AXES.iter().enumerate() {
+        let count = self.scene.bearing.degrees_of_freedom.count();
+        for row in 0..count {
+            for column in 0..count {
+                let ([a, along], [b, moved]) = (COORDINATES[row], COORDINATES[column]);
+                let (force, moves) = (Along { axis: "force", tilt: "moment" }, Along { axis: "displacement", tilt: "tilt" });
+                let unit = match (row > 2, column > 2) {
+                    (false, false) => Unit::NewtonPerMetre,
+                    (true, false) => Unit::Newton,
+                    (false, true) => Unit::NewtonPerRadian,
+                    (true, true) => Unit::NewtonMetrePerRadian,
+                };
+                let (force, moves) = (force.of(row), moves.of(column));
+                let nominal = [1e8, 1e6, 1e4][usize::from(row > 2) + usize::from(column > 2)];
                 self.output(
-                    &format!("shaft.stiffness.{a}{b}"),
-                    &format!("Tangent stiffness: force along {a} per displacement of the inner ring along {b}"),
+                    &stiffness_name(row, column),
+                    &format!("Tangent stiffness: {force} {along}{a} per {moves} of the inner ring {moved}{b}"),
                     Q::Stiffness(row, column),
-                    Unit::NewtonPerMetre,
-                    1e8,
+                    unit,
+                    nominal,
                 );
             }
         }
@@ -162,7 +180,8 @@ impl Builder<'_> {
             self.output(&name, &text, Q::SensorAcceleration(k), Unit::MetrePerSecondSquared, 10.0);
         }
         if self.scene.probe {
-            for (axis, letter) in AXES.iter().enumerate() {
+            let count = self.scene.bearing.degrees_of_freedom.count().min(3);
+            for (axis, [letter, _]) in COORDINATES.iter().enumerate().take(count) {
                 let text = format!("Displacement of the inner ring against the outer along {letter}");
                 self.output(&format!("probe.{letter}"), &text, Q::Probe(axis), Unit::Metre, 1e-5);
             }
@@ -214,6 +233,15 @@ impl Builder<'_> {
             Unit::Metre,
             1e-5,
         );
+        if self.in_space() {
+            self.output(
+                &name("].axial"),
+                &text("Axial position of element ", ", along z"),
+                Q::ElementAxial(j),
+                Unit::Metre,
+                1e-5,
+            );
+        }
         self.output(
             &name("].force.inner"),
             &text("Normal force between element ", " and the inner raceway"),
@@ -228,6 +256,9 @@ impl Builder<'_> {
             Unit::Newton,
             100.0,
         );
+        if self.in_space() {
+            self.element_angles(j);
+        }
         if self.scene.first_defect_of(j).is_some() {
             self.output(
                 &name("].spin_angle"),
@@ -246,6 +277,10 @@ impl Builder<'_> {
             "Integration steps taken again with a shorter one, for error or to land",
             Q::Count(Count::RejectedSteps),
         );
+        if self.has_shoulders() {
+            let text = "Ends of integration steps at which a shoulder cuts the contact of an element";
+            self.counter("solver.truncated_contacts", text, Q::Count(Count::TruncatedContacts));
+        }
         if !self.scene.defects.is_empty() {
             self.counter(
                 "solver.contact_solves",
@@ -261,40 +296,53 @@ impl Builder<'_> {
     }
 
     fn ring_outputs(&mut self, ring: RingName) {
-        let (name, what) = match ring {
+        let (of, what) = match ring {
             RingName::Shaft => ("shaft", "inner ring"),
             RingName::Housing => ("housing", "outer ring"),
         };
         let motion = self.motion(ring);
-        let mut pair = |suffix: &str, text: [&str; 2], quantity: fn(RingName, usize) -> Q, unit: Unit, nominal: f64| {
-            for (axis, letter) in AXES.iter().enumerate() {
-                let suffix = suffix.replace('*', letter);
-                self.output(
-                    &[name, ".", &suffix].concat(),
-                    &[text[0], " the ", what, " along ", letter, text[1]].concat(),
-                    quantity(ring, axis),
-                    unit,
-                    nominal,
-                );
-            }
-        };
         if motion == Motion::Internal {
-            pair("*", ["Position of", ""], Q::Position, Unit::Metre, 1e-5);
-            pair("v*", ["Velocity of", ""], Q::Velocity, Unit::MetrePerSecond, 1e-2);
-            pair("a*", ["Acceleration of", ""], Q::Acceleration, Unit::MetrePerSecondSquared, 10.0);
+            for Prescribed { prefix, noun, quantity, unit, size } in PRESCRIBED {
+                for axis in self.moving(ring) {
+                    let ([letter, along], noun) = (COORDINATES[axis], noun.of(axis));
+                    let text = [noun, " of the ", what, " ", along, letter].concat();
+                    self.output(&name(of, prefix, axis), &text, quantity(ring, axis), unit.of(axis), size.of(axis).nominal);
+                }
+            }
         }
         // Which of the two forces belongs to which co-simulation algorithm: docs/systems.md.
         let hosted = motion == Motion::Host;
         let after =
             if hosted { "; with its derivative by time for a master that steps all units in parallel" } else { "" };
-        let now = ["Force of the bearing's contacts, at this moment, on", after];
-        pair("force.*", now, Q::Force, Unit::Newton, 1000.0);
+        self.forces(ring, (of, what), "", [" of the bearing's contacts, at this moment, on", after], Q::Force);
         if hosted {
             let mean = [
-                "Force of the bearing's contacts, mean over the last communication step, on",
+                " of the bearing's contacts, mean over the last communication step, on",
                 "; for a host that takes the same step after the bearing, never for one in parallel",
             ];
-            pair("mean_force.*", mean, Q::MeanForce, Unit::Newton, 1000.0);
+            self.forces(ring, (of, what), "mean_", mean, Q::MeanForce);
+        }
+    }
+
+    /// Forces on a ring along its axes, and in space moments about x and y.
+    fn forces(
+        &mut self,
+        ring: RingName,
+        (of, what): (&str, &str),
+        prefix: &str,
+        text: [&str; 2],
+        quantity: fn(RingName, usize) -> Q,
+    ) {
+        for axis in 0..if self.in_space() { COORDINATES.len() } else { 2 } {
+            let [letter, along] = COORDINATES[axis];
+            let kind = Along { axis: ["force.", "Force"], tilt: ["moment.", "Moment"] }.of(axis);
+            self.output(
+                &[of, ".", prefix, kind[0], letter].concat(),
+                &[kind[1], text[0], " the ", what, " ", along, letter, text[1]].concat(),
+                quantity(ring, axis),
+                Along { axis: Unit::Newton, tilt: Unit::NewtonMetre }.of(axis),
+                Along { axis: 1000.0, tilt: 10.0 }.of(axis),
+            );
         }
     }
 
@@ -306,7 +354,7 @@ impl Builder<'_> {
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
     }
 
-    fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
+    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
         let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
         let variability = match quantity {
             // The mean belongs to the last communication step.

@@ -133,4 +133,14 @@ pub enum Unit {
     NewtonSecondPerMetre,
     /// s/m
     SecondPerMetre,
+    /// rad/s2
+    RadianPerSecondSquared,
+    /// kg.m2
+    KilogramSquareMetre,
+    /// N.m.s/rad
+    NewtonMetreSecondPerRadian,
+    /// N/rad
+    NewtonPerRadian,
+    /// N.m/rad
+    NewtonMetrePerRadian,
 }

@@ -12,6 +12,12 @@
 //!   F/m − (k x + c v)/m; a sensor's part is [`SensorSupport::force`] in both;
 //! - `Supports::ring_stiffnesses` for what is at rest, equilibrium and tangent: there only the rings' springs are left.
 
+mod sensor_modes;
+
+pub use sensor_modes::SensorModes;
+
+pub(crate) use sensor_modes::StepEnds;
+
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
 use crate::numerics::plane::Vector;

@@ -1,0 +1,163 @@
+//! The contacts of one ball with both grooves, near defects or not, in single numbers with any derivatives.
+
+use super::ball::{Ball, BallState, OnBall};
+use crate::contact::law::CompliantContact;
+use crate::contact::rolling::RacewaySide;
+use crate::dynamics::contacts::{Meeting, Shortcuts};
+use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space};
+use crate::numerics::number::Scalar;
+
+/// A ball and what it meets.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct BallMotion<T: Scalar = f64> {
+    /// The element, from 0.
+    pub(in crate::dynamics) element: usize,
+    pub(in crate::dynamics) e_r: [T; 2],
+    /// Angle about the outer ring's centre (rad) and its speed (rad/s).
+    pub(in crate::dynamics) angle: T,
+    pub(in crate::dynamics) omega: T,
+    pub(in crate::dynamics) rings: [RingInSpace<T>; 2],
+    pub(in crate::dynamics) frames: Frames<T>,
+    /// Whether derivatives are to know of curvatures along surfaces.
+    pub(in crate::dynamics) curved: bool,
+}
+
+/// A contact of a ball.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct BallContact<T: Scalar = f64> {
+    pub(in crate::dynamics) on_ball: OnBall<T>,
+    /// Equivalent approach (m) and its rate (m/s).
+    pub(in crate::dynamics) approach: T,
+    pub(in crate::dynamics) rate: T,
+    /// Magnitude of the force along the normal and around the ring (N).
+    pub(in crate::dynamics) magnitude: T,
+    /// The frame of the body that bears the defect under it.
+    pub(in crate::dynamics) frame: Option<Frame>,
+}
+
+/// A ball with its contacts.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct BallForces<T: Scalar = f64> {
+    pub(in crate::dynamics) ball: Ball<T>,
+    pub(in crate::dynamics) contacts: [BallContact<T>; 2],
+}
+
+impl<T: Scalar> BallForces<T> {
+    /// Force of both contacts on the ball along e_r, e_t and z (N).
+    #[inline(always)]
+    pub(in crate::dynamics) fn force(&self) -> [T; 3] {
+        let [inner, outer] = self.contacts.map(|contact| contact.on_ball.force);
+        std::array::from_fn(|i| inner[i] + outer[i])
+    }
+
+    /// Forces and moments on both rings.
+    #[inline(always)]
+    pub(in crate::dynamics) fn on_rings(&self) -> [[T; COORDINATES]; 2] {
+        self.contacts.map(|contact| self.ball.on_ring(&contact.on_ball))
+    }
+
+    /// Torques about the axis on the bodies whose defects are under its contacts (N m).
+    pub(in crate::dynamics) fn torques(&self) -> impl Iterator<Item = (Frame, T)> {
+        self.contacts.into_iter().filter_map(|contact| contact.frame.map(|frame| (frame, contact.on_ball.moment[2])))
+    }
+}
+
+impl<T: Scalar> BallMotion<T> {
+    /// The ball at u, v, w and w_z.
+    #[inline(always)]
+    pub(in crate::dynamics) fn ball(&self, model: &Model, space: &Space, state: BallState<T>) -> Ball<T> {
+        let radius = T::from(model.outer_centre_radius);
+        Ball::new(&space.grooves, radius, self.e_r, self.omega, state, &self.rings)
+    }
+
+    /// The ball at u and v, which change at these rates.
+    #[inline(always)]
+    pub(in crate::dynamics) fn ball_moving(&self, model: &Model, space: &Space, at: [T; 2], rates: [T; 2]) -> Ball<T> {
+        let radius = T::from(model.outer_centre_radius);
+        let [inner, outer] = &self.rings;
+        Ball::moving(&space.grooves, radius, self.e_r, self.omega, (at, rates), [inner, outer])
+    }
+}
+
+impl Model {
+    /// The contacts of a ball in these cells.
+    #[inline(always)]
+    pub(in crate::dynamics) fn ball_forces<T: Scalar>(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        at: &BallMotion<T>,
+        ball: &Ball<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> BallForces<T> {
+        let laws = [&self.inner.contact, &self.outer.contact];
+        self.ball_forces_with(laws, space, cells, at, ball, shortcuts)
+    }
+
+    /// The same with these laws.
+    #[inline(always)]
+    pub(in crate::dynamics) fn ball_forces_with<T: Scalar>(
+        &self,
+        laws: [&CompliantContact; 2],
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        at: &BallMotion<T>,
+        ball: &Ball<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> BallForces<T> {
+        let mut contact = |side: RacewaySide| {
+            let (law, cells) = (laws[side as usize], cells[side as usize]);
+            self.ball_contact(law, side, cells, at, ball, space.across_damping, shortcuts)
+        };
+        BallForces { ball: *ball, contacts: [contact(RacewaySide::Inner), contact(RacewaySide::Outer)] }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn ball_contact<T: Scalar>(
+        &self,
+        law: &CompliantContact,
+        side: RacewaySide,
+        cells: [u32; 2],
+        at: &BallMotion<T>,
+        ball: &Ball<T>,
+        across_damping: f64,
+        shortcuts: &mut Shortcuts,
+    ) -> BallContact<T> {
+        let place = &ball.places[side as usize];
+        let (contact, closing, damping) = (&place.contact, place.closing(), T::Plain::from(across_damping));
+        if cells == [SMOOTH; 2] {
+            let force = law.law.force(contact.approach, closing);
+            let on_ball = place.exerts([force, T::from(0.0)], force, damping);
+            return BallContact { on_ball, approach: contact.approach, rate: closing, magnitude: force, frame: None };
+        }
+        let meeting = self.ball_meeting(side, cells, at, ball);
+        let turning = match side {
+            RacewaySide::Inner => contact.turning(place.velocity),
+            RacewaySide::Outer => at.omega,
+        };
+        let near = self.near_or_unsolved(side, &meeting, &at.frames, shortcuts);
+        let found = near.force(law, None, [closing, turning], &at.frames);
+        let on_ball = place.exerts(found.force, found.magnitude, damping);
+        let [approach, rate] = found.part;
+        BallContact { on_ball, approach, rate, magnitude: found.magnitude, frame: Some(near.frame) }
+    }
+
+    /// Where a ball meets a defect: outside in its own direction, inside in that from the inner ring's axis.
+    #[inline(always)]
+    pub(in crate::dynamics) fn ball_meeting<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        cells: [u32; 2],
+        at: &BallMotion<T>,
+        ball: &Ball<T>,
+    ) -> Meeting<T> {
+        let contact = &ball.places[side as usize].contact;
+        let direction = match side {
+            RacewaySide::Inner => at.angle + T::angle_of([contact.outwards[0], contact.outwards[1]]),
+            RacewaySide::Outer => at.angle,
+        };
+        let (u, distance) = (contact.approach, contact.distance);
+        Meeting { element: at.element, cells, u, direction, distance, curved: at.curved }
+    }
+}

@@ -1,0 +1,51 @@
+//! Forces and moments on the rings by their positions and tilts, each ball staying in its balance.
+
+use crate::dynamics::contacts::{Record, Shortcuts};
+use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, Space};
+
+impl Model {
+    /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
+    /// balance at `balls`, u and v of each; elastic, everything standing where it is.
+    pub(in crate::dynamics) fn spatial_tangent(
+        &self,
+        space: &Space,
+        now: &FramedKinematics,
+        rings: &[RingInSpace; 2],
+        cells: &Cells,
+        balls: &[[f64; 2]],
+        shortcuts: &mut Shortcuts,
+    ) -> [[f64; RINGS]; RINGS] {
+        let mut sum = [[0.0; RINGS]; RINGS];
+        for (j, &place) in balls.iter().enumerate() {
+            let at = self.ball_motion(j, now, rings, shortcuts);
+            let found = self.ball_tangent(space, self.cells_of(cells, j), place, &at, shortcuts);
+            for (row, by) in sum.iter_mut().zip(found) {
+                row.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
+            }
+        }
+        sum
+    }
+
+    /// Tangent stiffness of the inner ring by its own coordinates, −∂(F, M)/∂(x, φ) with the balls in balance, at the
+    /// communication point; `None` in the plane.
+    pub fn stiffness_in_space(
+        &self,
+        excitation: &Excitation,
+        (cells, state): (&Cells, &[f64]),
+        contacts: &Record,
+        shortcuts: &mut Shortcuts,
+    ) -> Option<[[f64; COORDINATES]; COORDINATES]> {
+        let space = self.space.as_ref()?;
+        let rings = self.rings_in_space(excitation, 0.0, state, None);
+        let now = self.kinematics(excitation, 0.0, state);
+        let balls = self.balls_of(contacts.paths(self, state));
+        let tangent = self.spatial_tangent(space, &now, &rings, cells, &balls, shortcuts);
+        Some(std::array::from_fn(|row| std::array::from_fn(|column| -tangent[row][column])))
+    }
+
+    /// u and v of each ball in a state.
+    pub fn balls_of(&self, state: &[f64]) -> Vec<[f64; 2]> {
+        let v = self.layout.axial().map_or(0, |[v, _]| v);
+        (0..self.element_count).map(|j| [state[j], state[v + j]]).collect()
+    }
+}
