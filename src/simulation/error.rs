@@ -31,6 +31,15 @@ pub enum SimulationError {
         /// The law.
         law: ContactLaw,
     },
+    /// A topography under balls that run beside its middle row.
+    #[error(
+        "bearing.degrees_of_freedom = {given}: a topography is met beside its middle row, which is not modelled; take \
+         one profile along the track, or 2 degrees of freedom"
+    )]
+    TopographyInSpace {
+        /// Degrees of freedom.
+        given: usize,
+    },
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {} s: it must be finite and above 0", Plain(*.0))]
     CommunicationStep(f64),

@@ -93,6 +93,34 @@ pub enum StepError {
         /// Time into the communication step (s).
         since: f64,
     },
+    /// The rings are further apart along the axis than their grooves reach.
+    #[error(
+        "distance of the rings along z {apart:.3e} m (limit: that of the grooves' centres, {limit:.3e} m) {since:.6e} s \
+         into the communication step; check prescribed positions, axial loads and axial stiffness"
+    )]
+    RingsApartAxially {
+        /// z of the outer ring less that of the inner (m).
+        apart: f64,
+        /// Largest distance (m).
+        limit: f64,
+        /// Time into the communication step (s).
+        since: f64,
+    },
+    /// A ball that has climbed out of its groove.
+    #[error(
+        "contact angle of element {element} {angle_deg:.2} degrees (limit {limit_deg} degrees) {since:.6e} s into the \
+         communication step: no groove reaches there; check axial loads, tilts and prescribed positions"
+    )]
+    TooSteep {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Its contact angle (°).
+        angle_deg: f64,
+        /// Largest angle (°).
+        limit_deg: f64,
+        /// Time into the communication step (s).
+        since: f64,
+    },
     /// Elements go round so fast that time does not pass between one knot of the defect and the next.
     #[error(
         "elements passed {count} edges of the defect at one instant, {since:.6e} s into the communication step: the \

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod balance;
+mod derivatives;
+mod laws;
 mod motion;
 
 use brinell::scene::{Bearing, DegreesOfFreedom, Ring, Scene, SceneBuilder};

@@ -143,3 +143,41 @@ fn a_6205_that_tilts_moves_as_printed() {
     }
     .is_followed();
 }
+
+#[test]
+fn a_6205_with_an_outer_spall_that_is_met_at_fifteen_degrees_moves_as_printed() {
+    let bearing = Bearing {
+        hertz_inner: Some(2.5447889304e10),
+        hertz_outer: Some(2.6967253593e10),
+        element_mass: Some(2.0443e-3),
+        operating_angle: Some(15f64.to_radians()),
+        ..b6205(5e-6)
+    };
+    let scene = free_shaft(bearing, DegreesOfFreedom::Three).shaft(shaft()).shaft_speed(TAU * 30.0);
+    let scene = scene.cage(0.0, (-103.0174921316f64).to_radians()).spall(-0.5 * PI, 0.3e-3, 50e-6);
+    Path {
+        scene,
+        load: [0.0, -200.0, 400.0],
+        moment: [0.0; 2],
+        later: [0.0, -200.0, 400.0],
+        later_moment: [0.0; 2],
+        end: 3.1e-3,
+        expected: [
+            [
+                &["0.0001255", "-1.3198215", "86.7957892"],
+                &[],
+                &["-1.9238706", "43.3527976"],
+                &["211.965904", "212.205336"],
+                &["15.466223", "15.448164"],
+            ],
+            [
+                &["0.0000599", "-1.4512454", "86.8346705"],
+                &[],
+                &["-1.8390510", "43.3697620"],
+                &["218.590428", "219.168183"],
+                &["15.466101", "15.445968"],
+            ],
+        ],
+    }
+    .is_followed();
+}

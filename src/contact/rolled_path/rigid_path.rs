@@ -89,6 +89,17 @@ impl RigidPath {
         Ok(Self { knots, pieces })
     }
 
+    /// The path at angles of which the share `cos` turns the bodies over each other: of a track that is a circle about
+    /// another axis than the one about which it rolls. A share of 1 changes no bit.
+    pub fn turned_slower(mut self, cos: f64) -> Self {
+        self.knots.iter_mut().for_each(|knot| *knot /= cos);
+        for piece in &mut self.pieces {
+            piece.start /= cos;
+            piece.per_width *= cos;
+        }
+        self
+    }
+
     /// Ascending knots (rad) from the defect's centre. Outside the first and last the path is 0.
     pub fn knots(&self) -> &[f64] {
         &self.knots

@@ -2,8 +2,10 @@
 
 use super::kernel::{InnerGap, Meeting};
 use super::shortcuts::Shortcuts;
+use crate::contact::groove::{Axis, GrooveContact};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
+use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
@@ -20,6 +22,28 @@ impl Model {
     pub(crate) fn inner_lead(&self, j: usize, u: f64, now: &Kinematics, lead: &Lead) -> f64 {
         // The direction alone, of which the clearance is no part.
         self.inner_gap(u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()
+    }
+
+    /// The same of an element in a state at `tau`, in space too, where the inner ring's axis may be tilted.
+    pub(crate) fn seen_from_inside(
+        &self,
+        j: usize,
+        (excitation, tau): (&Excitation, f64),
+        state: &[f64],
+        now: &Kinematics,
+        lead: &Lead,
+    ) -> f64 {
+        let (Some(space), Some([v, _])) = (&self.space, self.layout.axial()) else {
+            return self.inner_lead(j, state[j], now, lead);
+        };
+        let [inner, outer] = self.rings_in_space(excitation, tau, state, None);
+        let e_r = self.direction_with(j, &now.cage, lead);
+        let seen = |v: Vector| [v.dot(&e_r), v.dot(&turned(e_r))];
+        let ([along, across], tilt) = (seen(now.offset()), seen(Vector::new(inner.position[3], inner.position[4])));
+        let rho = self.outer_centre_radius + state[j];
+        let q = [rho + along, across, state[v + j] + outer.position[2] - inner.position[2]];
+        let contact = GrooveContact::of(&space.grooves[0], q, &Axis::tilted(tilt, [0.0; 2]));
+        f64::angle_of([contact.outwards[0], contact.outwards[1]])
     }
 
     /// Element `j` at this `angle` (rad) and path `u` where it meets the outer raceway.
@@ -62,7 +86,7 @@ impl Model {
         for j in 0..self.element_count {
             let lead = self.lead(j, now.cage_angle());
             let theta = now.cage.angle + self.element_offset(j) + lead.angle;
-            let directions = [theta + self.inner_lead(j, state[j], &now, &lead), theta];
+            let directions = [theta + self.seen_from_inside(j, (excitation, tau), state, &now, &lead), theta];
             let cell =
                 |defects: &Defects, direction: f64| defects.cell_at(direction - now.frames.of(defects.frame).angle);
             cells.inner[j] = cell(&self.inner.defects, directions[0]);

@@ -2,6 +2,7 @@
 
 pub mod jacobian;
 mod spatial_jacobian;
+mod spatial_variation;
 pub mod variation;
 
 pub use jacobian::{BodyIndices, Fastest, Jacobian};

@@ -204,6 +204,10 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) {
         let mut shared = self.shared_in_space(excitation, tau, state);
+        if self.elements_in_balance() {
+            self.balls_in_balance_to_first_order(space, (cells, state), &mut shared, shortcuts);
+            return self.bodies_in_space(space, (excitation, tau), state, &shared, (jacobian, by_time));
+        }
         let [v, w, w_z] = jacobian.starts;
         for j in 0..self.element_count {
             let at = self.changing_ball(j, &shared, shortcuts);
@@ -233,6 +237,37 @@ impl Model {
             }
         }
         self.bodies_in_space(space, (excitation, tau), state, &shared, (jacobian, by_time));
+    }
+
+    /// What balls in balance make of the bodies' part: by positions their elastic tangent, by velocities what dampers
+    /// hand on; as in the plane their part of the derivative by time is left out.
+    fn balls_in_balance_to_first_order(
+        &self,
+        space: &Space,
+        (cells, state): (&Cells, &[f64]),
+        shared: &mut Shared,
+        shortcuts: &mut Shortcuts,
+    ) {
+        let v = self.layout.axial().map_or(0, |[v, _]| v);
+        for j in 0..self.element_count {
+            let (in_cells, place) = (self.cells_of(cells, j), [state[j], state[v + j]]);
+            let at = self.ball_motion(j, &shared.now, &shared.still, shortcuts);
+            let mut moving = at.lifted::<RINGS>();
+            for (ring, of) in moving.rings.iter_mut().enumerate() {
+                for (k, rate) in of.velocity.iter_mut().enumerate() {
+                    *rate = Dual::variable(rate.value, COORDINATES * ring + k);
+                }
+            }
+            let found = self.ball_in_balance(space, in_cells, place, (&moving, Dual::constant(0.0)), shortcuts);
+            let there = found.place.map(|number| number.value);
+            let tangent = self.ball_tangent(space, in_cells, there, &at.standing(), at.omega, shortcuts);
+            for (i, force) in found.forces.on_rings().as_flattened().iter().enumerate() {
+                for k in 0..RINGS {
+                    shared.forces[i][k] += tangent.by_position[i][k];
+                    shared.forces[i][RINGS + k] += force.by[k];
+                }
+            }
+        }
     }
 
     /// Rings and frames with what they change by.

@@ -11,7 +11,7 @@
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
 use crate::dynamics::parameters::{
-    CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingState, Turn,
+    CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingInSpace, RingState, Turn,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::number::Dual;
@@ -33,6 +33,12 @@ pub struct Variation {
     pub shaft: RingState,
     /// Of the outer ring.
     pub housing: RingState,
+    /// Of the inner and the outer ring beyond the plane: z, and tilt about x and about y; x and y are as above.
+    pub beyond: [RingInSpace; 2],
+    /// Of the balls' axial positions v (m); of no length in the plane.
+    pub axial: Vec<f64>,
+    /// Of their axial velocities w_z (m/s).
+    pub axial_velocity: Vec<f64>,
     /// Of the element paths u (m).
     pub path: Vec<f64>,
     /// Of the elements' absolute radial velocities w (m/s).
@@ -50,6 +56,10 @@ pub struct ForceChange {
     pub shaft: Vector,
     /// Of the force on the outer ring (N).
     pub housing: Vector,
+    /// Of the force along z (N) and the moments about x and y (N m) on the inner and the outer ring.
+    pub beyond: [[f64; 3]; 2],
+    /// Of each contact angle on the inner and on the outer raceway (rad); of no length in the plane.
+    pub contact_angles: [Vec<f64>; 2],
     /// Of the cage torque (N m) while the outer ring's acceleration does not change.
     pub cage_torque: f64,
     /// Of the torque of contacts near its defects on the inner ring (N m).
@@ -64,11 +74,19 @@ impl Variation {
         Self { path: vec![0.0; count], radial_velocity: vec![0.0; count], ..Self::default() }
     }
 
+    /// The same, with room for what `count` balls of rings in space do.
+    pub fn in_space(count: usize) -> Self {
+        Self { axial: vec![0.0; count], axial_velocity: vec![0.0; count], ..Self::new(count) }
+    }
+
     /// Makes it no change again; allocates nothing.
     pub fn clear(&mut self) {
         (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
         self.film_speed = 0.0;
         (self.shaft, self.housing) = (RingState::default(), RingState::default());
+        self.beyond = Default::default();
+        self.axial.fill(0.0);
+        self.axial_velocity.fill(0.0);
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
     }
@@ -95,19 +113,24 @@ impl ForceChange {
     pub fn new(count: usize) -> Self {
         Self { inner: vec![0.0; count], outer: vec![0.0; count], ..Self::default() }
     }
+
+    /// The same, with room for the contact angles of `count` balls of rings in space.
+    pub fn in_space(count: usize) -> Self {
+        Self { contact_angles: [(); 2].map(|()| vec![0.0; count]), ..Self::new(count) }
+    }
 }
 
 /// A number and its change.
-type Changing = Dual<f64, 1>;
+pub(in crate::dynamics) type Changing = Dual<f64, 1>;
 
 /// How an element goes round with the cage, to first order.
 pub(in crate::dynamics) struct Going {
     /// Change of its angle (rad).
-    turn: f64,
+    pub(super) turn: f64,
     /// Change of its speed (rad/s).
     pub(in crate::dynamics) speed: f64,
     /// Change of its acceleration (rad/s²).
-    alpha: f64,
+    pub(super) alpha: f64,
 }
 
 impl Going {
@@ -172,6 +195,9 @@ impl Model {
         (by, change): (&mut Variation, &mut ForceChange),
         shortcuts: &mut Shortcuts,
     ) {
+        if let Some(space) = &self.space {
+            return self.vary_in_space(space, excitation, (cells, state), acceleration, (by, change), shortcuts);
+        }
         let now = self.kinematics(excitation, 0.0, state);
         let mut rings = Rings::zeros();
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
@@ -252,7 +278,7 @@ impl Model {
     }
 }
 
-fn changing(value: f64, by: f64) -> Changing {
+pub(super) fn changing(value: f64, by: f64) -> Changing {
     Changing { value, by: [by] }
 }
 

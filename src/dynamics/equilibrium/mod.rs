@@ -4,6 +4,7 @@ mod error;
 mod resting;
 pub mod search;
 mod spatial_search;
+mod spatial_variation;
 pub mod variation;
 
 pub use search::EquilibriumError;

@@ -144,12 +144,19 @@ impl Model {
         let (mut contact_sum, mut rounding) = (0.0, 0.0);
         for (j, place) in balls.iter_mut().enumerate() {
             let at = self.ball_motion(j, &given.still, &rings, shortcuts);
-            let found = self.balanced_ball(space, self.cells_of(given.cells, j), *place, &at, shortcuts);
-            *place = found.at;
-            for (sum, force) in sums.iter_mut().zip(found.forces.on_rings().as_flattened()) {
+            let cells = self.cells_of(given.cells, j);
+            let (there, forces) = if self.elements_in_balance() {
+                let found = self.ball_in_balance(space, cells, *place, (&at, 0.0), shortcuts);
+                (found.place, found.forces)
+            } else {
+                let found = self.balanced_ball(space, cells, *place, &at, at.omega, shortcuts);
+                (found.at, found.forces)
+            };
+            *place = there;
+            for (sum, force) in sums.iter_mut().zip(forces.on_rings().as_flattened()) {
                 *sum += force;
             }
-            for (side, contact) in found.forces.contacts.iter().enumerate() {
+            for (side, contact) in forces.contacts.iter().enumerate() {
                 contact_sum += contact.magnitude;
                 largest = largest.max(contact.magnitude);
                 let law = &[&self.inner, &self.outer][side].contact.law;
@@ -234,9 +241,11 @@ impl Model {
         let rings = given.rings_at(x);
         for (j, place) in balls.iter_mut().enumerate() {
             let at = self.ball_motion(j, &given.still, &rings, shortcuts);
-            let found = self.balanced_ball(given.space, self.cells_of(given.cells, j), *place, &at, shortcuts);
+            let (cells, omega) = (self.cells_of(given.cells, j), at.omega);
+            let at = if self.elements_in_balance() { at.standing() } else { at };
+            let found = self.balanced_ball(given.space, cells, *place, &at, omega, shortcuts);
             let [r, z] = found.residual;
-            let body = self.element_mass * (self.gravity.norm() + found.forces.ball.rho * at.omega * at.omega);
+            let body = self.element_mass * (self.gravity.norm() + found.forces.ball.rho * omega * omega);
             let sum: f64 = found.forces.contacts.iter().map(|contact| contact.magnitude).sum();
             let force = libm::hypot(r, z);
             if !(force <= UNBALANCED * (sum + body) && found.at[0].abs() <= self.element_radius) {

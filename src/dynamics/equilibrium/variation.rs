@@ -10,22 +10,31 @@
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
 use crate::dynamics::derivatives::variation::{Going, Variation};
-use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model};
+use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
     /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
-    /// (N). `None` if the rings have no stiffness against them.
+    /// (N), and of their loads along z and moments about x and y (N m). `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
         excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
-        loads: Rings,
+        loads: (Rings, [[f64; 3]; 2]),
         by: &mut Variation,
         shortcuts: &mut Shortcuts,
     ) -> Option<()> {
+        let (loads, beyond) = loads;
+        if let Some(space) = &self.space {
+            let mut all = [0.0; RINGS];
+            for (i, all) in all.iter_mut().enumerate() {
+                let (ring, k) = (i / COORDINATES, i % COORDINATES);
+                *all = if k < 2 { loads[2 * ring + k] } else { beyond[ring][k - 2] };
+            }
+            return self.vary_spatial_equilibrium(space, excitation, (cells, state), &all, by, shortcuts);
+        }
         let now = self.kinematics(excitation, 0.0, state);
         if self.elements_in_balance() {
             // Their paths follow in `Model::vary`.

@@ -1,7 +1,8 @@
 //! How the rings of a model move: from the state where it has them, else as the host prescribes.
 
 use crate::dynamics::parameters::{
-    Cubic, Excitation, FramedKinematics, Kinematics, Model, RingState, Stage, moved, prescribed_rate,
+    Cubic, Excitation, FramedKinematics, Kinematics, Layout, Model, RingInSpace, RingState, Stage, moved,
+    prescribed_rate,
 };
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
@@ -50,6 +51,26 @@ impl Model {
                 None => prescribed_rate(prescribed, tau),
             },
         )
+    }
+
+    /// Both rings at `tau`, their positions moved on by the time that is still `ahead` (s).
+    #[inline(always)]
+    pub fn rings_in_space(&self, excitation: &Excitation, tau: f64, state: &[f64], ahead: Option<f64>) -> [RingInSpace; 2] {
+        let hosted = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Host);
+        self.layout.rings_in_space(excitation, hosted, tau, state, ahead.unwrap_or(0.0))
+    }
+
+    /// Velocity and acceleration of both rings in space.
+    pub fn ring_rates_in_space(&self, excitation: &Excitation, tau: f64, derivative: &[f64]) -> [RingInSpace; 2] {
+        let rings = [(0, self.layout.shaft, &self.shaft), (1, self.layout.housing, &self.housing)];
+        rings.map(|(number, start, ring)| match start {
+            Some(start) => RingInSpace {
+                position: Layout::POSITIONS.map(|slot| derivative[start + slot]),
+                velocity: Layout::VELOCITIES.map(|slot| derivative[start + slot]),
+            },
+            None if ring.motion == Motion::Host => excitation.prescribed_rates(number, tau),
+            None => RingInSpace::default(),
+        })
     }
 }
 

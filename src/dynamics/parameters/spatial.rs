@@ -138,7 +138,7 @@ impl Space {
 
     /// Accelerations of the bodies whose positions are `x` and velocities `v`, `acting` on the rings beside their
     /// supports; the rings turn at `speeds` (rad/s). Linear in all but the speeds.
-    pub(in crate::dynamics) fn accelerations(
+    pub fn accelerations(
         &self,
         x: &SpatialBodies,
         v: &SpatialBodies,
@@ -234,7 +234,7 @@ impl Excitation {
     }
 
     /// Speeds of both rings (rad/s), and their rates (rad/s²).
-    pub(in crate::dynamics) fn ring_speeds(&self, tau: f64) -> [[f64; 2]; 2] {
+    pub fn ring_speeds(&self, tau: f64) -> [[f64; 2]; 2] {
         let turning = [Frame::Shaft, Frame::Housing].map(|frame| self.frames[frame as usize].since);
         [turning.map(|since| since.rate_at(tau)), turning.map(|since| since.0[2])]
     }

@@ -17,7 +17,7 @@
 
 use super::ball_contacts::{BallForces, BallMotion};
 use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::parameters::{COORDINATES, Frames, Model, RINGS, RingInSpace, Space};
+use crate::dynamics::parameters::{COORDINATES, Frames, Model, RINGS, RingInSpace, Space, Turn};
 use crate::numerics::number::{Dual, Scalar};
 
 /// Rounding of distances of some 20 mm (m): a step shorter than this is none.
@@ -40,27 +40,37 @@ pub(in crate::dynamics) struct BalancedBall {
     pub(in crate::dynamics) forces: BallForces,
 }
 
+/// Derivatives of a ball's forces on the rings, by coordinates of both rings, the ball keeping its balance.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct BallTangent<T: Scalar = f64> {
+    pub(in crate::dynamics) by_position: [[T; RINGS]; RINGS],
+    /// Of u and v, by the rings' positions.
+    pub(in crate::dynamics) ball: [[T; RINGS]; 2],
+    /// Of the forces by u and v, the rings standing.
+    pub(in crate::dynamics) by_ball: [[T; 2]; RINGS],
+    residual_by_ball: [[T; 2]; 2],
+}
+
 /// A number with derivatives by u and v.
 type ByBall = Dual<f64, 2>;
 /// A number with derivatives by u, v and both rings' coordinates.
-type ByAll = Dual<f64, { 2 + RINGS }>;
+type ByAll<T> = Dual<T, { 2 + RINGS }>;
 
-impl BallMotion {
-    /// The same with numbers of another kind, none of which changes.
-    pub(in crate::dynamics) fn constant<T: Scalar>(&self) -> BallMotion<T> {
-        let frame = |turn: crate::dynamics::parameters::Turn| crate::dynamics::parameters::Turn {
-            angle: T::from(turn.angle),
-            speed: T::from(turn.speed),
+impl<T: Scalar> BallMotion<T> {
+    /// The same as dual numbers that do not change.
+    pub(in crate::dynamics) fn lifted<const K: usize>(&self) -> BallMotion<Dual<T, K>> {
+        let constant = Dual::<T, K>::constant;
+        let frame = |turn: Turn<T>| Turn { angle: constant(turn.angle), speed: constant(turn.speed) };
+        let ring = |ring: RingInSpace<T>| RingInSpace {
+            position: ring.position.map(constant),
+            velocity: ring.velocity.map(constant),
         };
         BallMotion {
             element: self.element,
-            e_r: self.e_r.map(T::from),
-            angle: T::from(self.angle),
-            omega: T::from(self.omega),
-            rings: self.rings.map(|ring| RingInSpace {
-                position: ring.position.map(T::from),
-                velocity: ring.velocity.map(T::from),
-            }),
+            e_r: self.e_r.map(constant),
+            angle: constant(self.angle),
+            omega: constant(self.omega),
+            rings: self.rings.map(ring),
             frames: Frames(self.frames.0.map(frame)),
             curved: self.curved,
         }
@@ -68,8 +78,10 @@ impl BallMotion {
 
     /// The same positions with nothing moving.
     pub(in crate::dynamics) fn standing(&self) -> Self {
-        let rings = self.rings.map(|ring| RingInSpace { velocity: [0.0; COORDINATES], ..ring });
-        Self { omega: 0.0, rings, frames: self.frames.at_rest(), ..*self }
+        let none = T::from(0.0);
+        let rings = self.rings.map(|ring| RingInSpace { velocity: [none; COORDINATES], ..ring });
+        let frames = Frames(self.frames.0.map(|turn| Turn { speed: none, ..turn }));
+        Self { omega: none, rings, frames, ..*self }
     }
 }
 
@@ -95,13 +107,14 @@ impl Model {
         ([f_r + body * mass, f_z + T::from(1.0) * g_z * mass], found)
     }
 
-    /// Ball `at` in balance, looked for from `guess` on.
+    /// Ball `at` in balance, looked for from `guess` on; it feels the centrifugal force of `omega` (rad/s).
     pub(in crate::dynamics) fn balanced_ball(
         &self,
         space: &Space,
         cells: [[u32; 2]; 2],
         guess: [f64; 2],
         at: &BallMotion,
+        omega: f64,
         shortcuts: &mut Shortcuts,
     ) -> BalancedBall {
         let at = &BallMotion { curved: false, ..*at };
@@ -109,7 +122,7 @@ impl Model {
         let mut along_valley = |v: f64| {
             let mut residual = |u: f64| {
                 let place = [ByBall::variable(u, 0), ByBall::variable(v, 1)];
-                self.ball_residual(space, cells, &at.constant(), place, ByBall::constant(at.omega), shortcuts).0
+                self.ball_residual(space, cells, &at.lifted(), place, ByBall::constant(omega), shortcuts).0
             };
             u = falling_zero(u, |u| {
                 let [r, _] = residual(u);
@@ -122,8 +135,8 @@ impl Model {
         };
         let v = falling_zero(guess[1], &mut along_valley);
         along_valley(v);
-        let u = self.touching_u(space, cells, [u, v], at, shortcuts);
-        let (residual, forces) = self.ball_residual(space, cells, at, [u, v], at.omega, shortcuts);
+        let u = self.touching_u(space, cells, [u, v], at, omega, shortcuts);
+        let (residual, forces) = self.ball_residual(space, cells, at, [u, v], omega, shortcuts);
         BalancedBall { at: [u, v], residual, forces }
     }
 
@@ -134,16 +147,17 @@ impl Model {
         cells: [[u32; 2]; 2],
         [mut u, v]: [f64; 2],
         at: &BallMotion,
+        omega: f64,
         shortcuts: &mut Shortcuts,
     ) -> f64 {
-        let (residual, found) = self.ball_residual(space, cells, at, [u, v], at.omega, shortcuts);
+        let (residual, found) = self.ball_residual(space, cells, at, [u, v], omega, shortcuts);
         if found.contacts.iter().any(|contact| contact.magnitude != 0.0) || residual != [0.0; 2] {
             return u;
         }
         for _ in 0..20 {
             let place = [ByBall::variable(u, 0), ByBall::variable(v, 1)];
             let none = ByBall::constant(0.0);
-            let (_, found) = self.ball_residual(space, cells, &at.constant(), place, none, shortcuts);
+            let (_, found) = self.ball_residual(space, cells, &at.lifted(), place, none, shortcuts);
             let step = found.contacts[1].approach.value / found.contacts[1].approach.by[0];
             u -= step;
             if step.abs() <= ROUNDING {
@@ -153,42 +167,52 @@ impl Model {
         u
     }
 
-    /// Derivatives of the forces on both rings, of a ball in balance at `place`, by the rings' positions; all stands where
-    /// it is.
-    pub(in crate::dynamics) fn ball_tangent(
+    /// What a ball in balance at `place` makes of the forces on the rings; it feels the centrifugal force of `omega`
+    /// (rad/s).
+    pub(in crate::dynamics) fn ball_tangent<T: Scalar>(
         &self,
         space: &Space,
         cells: [[u32; 2]; 2],
-        place: [f64; 2],
-        at: &BallMotion,
+        place: [T; 2],
+        at: &BallMotion<T>,
+        omega: T,
         shortcuts: &mut Shortcuts,
-    ) -> [[f64; RINGS]; RINGS] {
-        let mut seeded: BallMotion<ByAll> = at.standing().constant();
+    ) -> BallTangent<T> {
+        let mut seeded: BallMotion<ByAll<T>> = at.lifted();
         for (ring, of) in seeded.rings.iter_mut().enumerate() {
             for (k, x) in of.position.iter_mut().enumerate() {
                 *x = ByAll::variable(x.value, 2 + COORDINATES * ring + k);
             }
         }
-        let (place, omega) = ([0, 1].map(|k| ByAll::variable(place[k], k)), ByAll::constant(at.omega));
-        let (residual, found) = self.ball_residual(space, cells, &seeded, place, omega, shortcuts);
+        let place = [0, 1].map(|k: usize| ByAll::variable(place[k], k));
+        let (residual, found) = self.ball_residual(space, cells, &seeded, place, ByAll::constant(omega), shortcuts);
         let rings = found.on_rings();
-        // R_b, and where nothing holds the ball no answer of it.
-        let [[a, b], [c, d]] = residual.map(|of| [of.by[0], of.by[1]]);
+        let mut tangent = BallTangent {
+            by_position: [[T::from(0.0); RINGS]; RINGS],
+            ball: [[T::from(0.0); RINGS]; 2],
+            by_ball: std::array::from_fn(|i| [0, 1].map(|k: usize| rings.as_flattened()[i].by[k])),
+            residual_by_ball: residual.map(|of| [of.by[0], of.by[1]]),
+        };
+        for i in 0..RINGS {
+            let [u, v] = tangent.answer(residual.map(|of| of.by[2 + i]));
+            (tangent.ball[0][i], tangent.ball[1][i]) = (u, v);
+            for (row, force) in tangent.by_position.iter_mut().zip(rings.as_flattened()) {
+                row[i] = force.by[2 + i] + force.by[0] * u + force.by[1] * v;
+            }
+        }
+        tangent
+    }
+}
+
+impl<T: Scalar> BallTangent<T> {
+    /// Where u and v go until they balance a change of R_r and R_z; nowhere if nothing holds the ball.
+    pub(in crate::dynamics) fn answer(&self, [r, z]: [T; 2]) -> [T; 2] {
+        let [[a, b], [c, d]] = self.residual_by_ball;
         let determinant = a * d - b * c;
-        let mut ball = [[0.0; RINGS]; 2];
-        if determinant != 0.0 {
-            for i in 0..RINGS {
-                let [r, z] = residual.map(|of| of.by[2 + i]);
-                (ball[0][i], ball[1][i]) = ((b * z - d * r) / determinant, (c * r - a * z) / determinant);
-            }
+        if determinant.value() == 0.0 {
+            return [T::from(0.0); 2];
         }
-        let mut by_position = [[0.0; RINGS]; RINGS];
-        for (row, force) in by_position.iter_mut().zip(rings.as_flattened()) {
-            for (i, by) in row.iter_mut().enumerate() {
-                *by = force.by[2 + i] + force.by[0] * ball[0][i] + force.by[1] * ball[1][i];
-            }
-        }
-        by_position
+        [(b * z - d * r) / determinant, (c * r - a * z) / determinant]
     }
 }
 

@@ -7,8 +7,9 @@
 mod ball;
 mod ball_balance;
 mod ball_contacts;
+mod ball_in_balance;
 mod ball_lanes;
 mod right_hand_side;
 mod tangent;
 
-pub(in crate::dynamics) use ball_contacts::BallMotion;
+pub(in crate::dynamics) use ball_contacts::{BallForces, BallMotion};

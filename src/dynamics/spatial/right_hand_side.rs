@@ -4,34 +4,13 @@ use super::ball_contacts::{BallForces, BallMotion};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Forces, Record, UnsolvedContact};
 use crate::dynamics::parameters::{
-    COORDINATES, Excitation, FramedKinematics, Layout, Model, RINGS, RingInSpace, SMOOTH, SPATIAL_BODIES, Space,
+    COORDINATES, FramedKinematics, Layout, Model, RINGS, RingInSpace, SMOOTH, SPATIAL_BODIES, Space,
     Stage, force_slot,
 };
 use crate::numerics::lanes::{WIDEST, Wide};
 use crate::numerics::plane::turned_by;
-use crate::scene::Motion;
 
 impl Model {
-    /// Both rings at `tau`, their positions moved on by the time that is still `ahead` (s).
-    #[inline(always)]
-    pub fn rings_in_space(&self, excitation: &Excitation, tau: f64, state: &[f64], ahead: Option<f64>) -> [RingInSpace; 2] {
-        let hosted = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Host);
-        self.layout.rings_in_space(excitation, hosted, tau, state, ahead.unwrap_or(0.0))
-    }
-
-    /// Velocity and acceleration of both rings in space.
-    pub fn ring_rates_in_space(&self, excitation: &Excitation, tau: f64, derivative: &[f64]) -> [RingInSpace; 2] {
-        let rings = [(0, self.layout.shaft, &self.shaft), (1, self.layout.housing, &self.housing)];
-        rings.map(|(number, start, ring)| match start {
-            Some(start) => RingInSpace {
-                position: Layout::POSITIONS.map(|slot| derivative[start + slot]),
-                velocity: Layout::VELOCITIES.map(|slot| derivative[start + slot]),
-            },
-            None if ring.motion == Motion::Host => excitation.prescribed_rates(number, tau),
-            None => RingInSpace::default(),
-        })
-    }
-
     /// As [`Model::derivative_on`] of rings in space.
     #[inline(always)]
     pub(in crate::dynamics) fn spatial_derivative<S: Wide, const RECORD: bool>(
@@ -46,12 +25,16 @@ impl Model {
         let angle = excitation.cage_angle_of(cage);
         forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
         let rings = self.rings_in_space(excitation, cage.tau, state, ahead);
-        let (elements, contacts) = (&forces.elements, &mut forces.contacts);
-        let mut sums = self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, elements, contacts);
         if RECORD {
             forces.torques = [0.0; 3];
         }
-        if !forces.searched.is_empty() {
+        let mut sums = if self.elements_in_balance() {
+            self.balls_in_balance::<RECORD>(space, &rings, stage, derivative, forces)
+        } else {
+            let (elements, contacts) = (&forces.elements, &mut forces.contacts);
+            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, elements, contacts)
+        };
+        if !forces.searched.is_empty() && !self.elements_in_balance() {
             forces.frames = excitation.frames_at(cage.tau);
             self.balls_near_defects::<RECORD>(space, &rings, stage, derivative, (forces, &mut sums));
         }
@@ -61,11 +44,18 @@ impl Model {
         self.spatial_bodies(space, stage, &rings, &sums, derivative);
     }
 
-    /// Ball `j` where it is within a step's kernels.
+    /// Ball `j` where it is within a step's kernels, and its acceleration about the outer ring's centre (rad/s²).
     #[inline(always)]
-    fn ball_within(&self, j: usize, stage: &Stage, rings: &[RingInSpace; 2], forces: &Forces) -> BallMotion {
+    pub(super) fn ball_within(
+        &self,
+        j: usize,
+        stage: &Stage,
+        rings: &[RingInSpace; 2],
+        forces: &Forces,
+    ) -> (BallMotion, f64) {
         let (block, i, cage) = (&forces.elements[j / WIDEST], j % WIDEST, stage.cage);
-        BallMotion {
+        let alpha = cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i];
+        let at = BallMotion {
             element: j,
             e_r: turned_by(cage.direction, block.sin[i], block.cos[i]).into(),
             angle: cage.angle + self.element_offset(j) + block.lead[i],
@@ -73,7 +63,8 @@ impl Model {
             rings: *rings,
             frames: forces.frames,
             curved: true,
-        }
+        };
+        (at, alpha)
     }
 
     /// Balls of which a contact is near a defect, one by one, after all others.
@@ -90,7 +81,7 @@ impl Model {
         let (w, state) = (self.layout.radial_velocity, stage.state);
         for i in 0..forces.searched.len() {
             let (j, cells) = (forces.searched[i].element, forces.searched[i].cells);
-            let at = self.ball_within(j, stage, rings, forces);
+            let (at, _) = self.ball_within(j, stage, rings, forces);
             let ahead = stage.ahead.unwrap_or(0.0);
             let moved = [state[j] + ahead * derivative[j], state[v + j] + ahead * derivative[v + j]];
             let ball = at.ball(self, space, [moved[0], moved[1], state[w + j], state[w_z + j]]);
@@ -98,7 +89,7 @@ impl Model {
             let found = self.ball_forces(space, cells, &at, &ball, &mut forces.shortcuts);
             let [f_r, f_t, f_z] = found.force();
             if !(f_r + f_t + f_z).is_finite() {
-                self.note_unsolved(space, cells, &at, &found, forces);
+                self.note_unsolved(cells, &at, &found, forces);
             }
             derivative[w + j] += f_r * self.inverse_element_mass;
             derivative[w_z + j] += f_z * self.inverse_element_mass;
@@ -116,9 +107,8 @@ impl Model {
 
     /// Keeps why a contact near a defect has no answer, if it is the cause.
     #[cold]
-    fn note_unsolved(
+    pub(super) fn note_unsolved(
         &self,
-        _: &Space,
         cells: [[u32; 2]; 2],
         at: &BallMotion,
         found: &BallForces,

@@ -18,8 +18,9 @@ impl Model {
         let mut sum = [[0.0; RINGS]; RINGS];
         for (j, &place) in balls.iter().enumerate() {
             let at = self.ball_motion(j, now, rings, shortcuts);
-            let found = self.ball_tangent(space, self.cells_of(cells, j), place, &at, shortcuts);
-            for (row, by) in sum.iter_mut().zip(found) {
+            let (omega, in_cells) = (at.omega, self.cells_of(cells, j));
+            let found = self.ball_tangent(space, in_cells, place, &at.standing(), omega, shortcuts);
+            for (row, by) in sum.iter_mut().zip(found.by_position) {
                 row.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
             }
         }

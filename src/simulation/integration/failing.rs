@@ -77,6 +77,13 @@ fn first_largest(layout: &Layout, size: impl Fn(usize) -> f64) -> usize {
 /// Beyond an element's radius the rings are beside each other, and a contact that is NaN would push nothing.
 pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Result<(), StepError> {
     let Problem { model, excitation } = problem;
+    if let Some(space) = &model.space {
+        let [inner, outer] = model.rings_in_space(excitation, tau, &progress.state, None);
+        let (apart, limit) = (outer.position[2] - inner.position[2], space.largest_shift);
+        if !(apart.abs() <= limit) {
+            return Err(StepError::RingsApartAxially { apart, limit, since: tau });
+        }
+    }
     let shaft = model.shaft_state(excitation, tau, &progress.state).position;
     let housing = model.housing_state(excitation, tau, &progress.state).position;
     let (apart, limit) = (housing - shaft, model.element_radius);
@@ -86,3 +93,31 @@ pub(super) fn check_rings(problem: Problem, tau: f64, progress: &Progress) -> Re
     let offset = libm::hypot(apart.x, apart.y);
     Err(StepError::RingsApart { offset, limit, shaft: shaft.into(), housing: housing.into(), since: tau })
 }
+
+/// Largest contact angle (degrees): no groove goes on so far.
+const STEEPEST: f64 = 80.0;
+
+/// In space no ball may climb out of its groove. Counts ends of steps at which a shoulder cuts a contact.
+pub(super) fn check_angles(
+    workspace: &Workspace,
+    model: &Model,
+    since: f64,
+    progress: &mut Progress,
+) -> Result<(), StepError> {
+    let Some(space) = &model.space else { return Ok(()) };
+    let contacts = &workspace.forces.contacts;
+    let mut is_cut = false;
+    for (j, side) in (0..model.element_count).flat_map(|j| [(j, 0), (j, 1)]) {
+        let pushes = [&contacts.inner, &contacts.outer][side][j] > 0.0;
+        if pushes && contacts.meridians[2 * side][j].abs() < STEEPEST_COSINE {
+            let angle_deg = contacts.contact_angle(space, j, side).to_degrees();
+            return Err(StepError::TooSteep { element: j + 1, angle_deg, limit_deg: STEEPEST, since });
+        }
+        is_cut |= pushes && space.shoulders[side].is_some() && contacts.shoulder_margin(space, j, side) < 0.0;
+    }
+    progress.truncated_contacts += u64::from(is_cut);
+    Ok(())
+}
+
+/// cos 80°
+const STEEPEST_COSINE: f64 = 0.173_648_177_666_930_35;

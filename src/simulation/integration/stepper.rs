@@ -11,7 +11,7 @@
 //! Three methods step, one at a time ([`super::switching`]); error control and landing are the same for all.
 
 use super::advance::Advance;
-use super::failing::{check_rings, check_step, worst};
+use super::failing::{check_angles, check_rings, check_step, worst};
 use super::kernels::{probe, try_step};
 use super::progress::Progress;
 use super::step_size::{factor_over_change, share_of, step_factor};
@@ -284,6 +284,8 @@ impl Stepper<'_> {
     /// Records and accepts the step tried last; a contact that crosses a knot at its end then enters the cell beyond.
     #[inline(always)]
     fn conclude(&mut self, span: Span, taken: Taken, crossing: Option<Crossing>) -> Result<(), StepError> {
+        // Before samples within the step leave their own forces.
+        check_angles(self.workspace, self.problem.model, span.end(), self.progress)?;
         self.record(span);
         self.accept(span)?;
         self.choose(span, taken);

@@ -2,9 +2,12 @@
 
 use super::quantity::RingName;
 use crate::dynamics::derivatives::{ForceChange, Variation};
-use crate::dynamics::parameters::RingState;
+use crate::dynamics::contacts::Forces;
+use crate::dynamics::parameters::{
+    COORDINATES, Excitation, Frame, Model, RINGS, RingInSpace, RingState, SPATIAL_BODIES,
+};
 use crate::dynamics::quasi_static::Rings;
-use crate::numerics::plane::{Matrix, Vector};
+use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
 /// A small change of everything that outputs are made of, and what it makes of the forces.
@@ -14,29 +17,37 @@ pub(in crate::simulation) struct Change {
     pub(in crate::simulation) forces: ForceChange,
     /// Of the external loads on inner and outer ring (N).
     pub(in crate::simulation) loads: Rings,
+    /// Of the loads along z (N) and the moments (N m) on both rings.
+    pub(in crate::simulation) loads_beyond: [[f64; 3]; 2],
     /// Of the sensors' positions and velocities.
     pub(in crate::simulation) sensors: [[f64; 2]; MOST_SENSORS],
     /// Of the accelerations of inner and outer ring (m/s²).
     pub(in crate::simulation) accelerations: [Vector; 2],
+    /// Of those along z (m/s²) and of the tilts (rad/s²).
+    pub(in crate::simulation) accelerations_beyond: [[f64; 3]; 2],
     pub(in crate::simulation) sensor_accelerations: [f64; MOST_SENSORS],
     /// Of what they measure, by the motion of the modes under them.
     pub(in crate::simulation) by_sensor_modes: [f64; MOST_SENSORS],
     pub(in crate::simulation) cage_torque: f64,
-    pub(in crate::simulation) stiffness: Matrix,
+    /// −1 times that of the tangent stiffness by the inner ring's coordinates.
+    pub(in crate::simulation) stiffness: [[f64; COORDINATES]; COORDINATES],
 }
 
 impl Change {
-    pub(in crate::simulation) fn new(count: usize) -> Self {
+    /// Room for `count` elements, those of rings in space or in the plane.
+    pub(in crate::simulation) fn new(count: usize, in_space: bool) -> Self {
         Self {
-            variation: Variation::new(count),
-            forces: ForceChange::new(count),
+            variation: if in_space { Variation::in_space(count) } else { Variation::new(count) },
+            forces: if in_space { ForceChange::in_space(count) } else { ForceChange::new(count) },
+            loads_beyond: [[0.0; 3]; 2],
+            accelerations_beyond: [[0.0; 3]; 2],
             loads: Rings::zeros(),
             sensors: [[0.0; 2]; MOST_SENSORS],
             accelerations: [Vector::zeros(); 2],
             sensor_accelerations: [0.0; MOST_SENSORS],
             by_sensor_modes: [0.0; MOST_SENSORS],
             cage_torque: 0.0,
-            stiffness: Matrix::zeros(),
+            stiffness: [[0.0; COORDINATES]; COORDINATES],
         }
     }
 
@@ -46,7 +57,8 @@ impl Change {
         (self.sensors, self.sensor_accelerations) = ([[0.0; 2]; MOST_SENSORS], [0.0; MOST_SENSORS]);
         self.by_sensor_modes = [0.0; MOST_SENSORS];
         self.cage_torque = 0.0;
-        self.stiffness = Matrix::zeros();
+        self.stiffness = [[0.0; COORDINATES]; COORDINATES];
+        (self.loads_beyond, self.accelerations_beyond) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
     }
 
     pub(in crate::simulation) fn ring(&mut self, name: RingName) -> &mut RingState {
@@ -54,5 +66,67 @@ impl Change {
             RingName::Shaft => &mut self.variation.shaft,
             RingName::Housing => &mut self.variation.housing,
         }
+    }
+
+    /// Change of the angle that the contact of element `j` leaves to a shoulder (rad).
+    pub(in crate::simulation) fn of_shoulder(&self, model: &Model, forces: &Forces, j: usize, side: usize) -> f64 {
+        let Some(space) = &model.space else { return 0.0 };
+        let contacts = &forces.contacts;
+        let force = [&contacts.inner, &contacts.outer][side][j];
+        let (angle, by) = (contacts.contact_angle(space, j, side), self.forces.contact_angles[side][j]);
+        let growth = [&self.forces.inner, &self.forces.outer][side][j];
+        // a/r_g grows with the cube root of the force.
+        let longer = space.half_lengths[side] * libm::cbrt(force.max(0.0)) / space.grooves[side].radius;
+        let by_force = if force > 0.0 { longer / (3.0 * force) } else { 0.0 };
+        -by * angle.signum() - by_force * growth
+    }
+
+    /// Accelerations of rings in space and of sensors, from the changes of positions, velocities, forces and loads.
+    pub(in crate::simulation) fn accelerate_in_space(
+        &mut self,
+        model: &Model,
+        excitation: &Excitation,
+        rings: &[RingInSpace; 2],
+    ) {
+        let Some(space) = &model.space else { return };
+        let (mut x, mut v, mut acting) = ([0.0; SPATIAL_BODIES], [0.0; SPATIAL_BODIES], [0.0; RINGS]);
+        let mut present = [0.0; SPATIAL_BODIES];
+        let planes = [
+            (&self.variation.shaft, self.forces.shaft, [self.loads[0], self.loads[1]]),
+            (&self.variation.housing, self.forces.housing, [self.loads[2], self.loads[3]]),
+        ];
+        for (ring, (plane, force, load)) in planes.into_iter().enumerate() {
+            for k in 0..COORDINATES {
+                let i = COORDINATES * ring + k;
+                present[i] = rings[ring].velocity[k];
+                (x[i], v[i], acting[i]) = if k < 2 {
+                    (plane.position[k], plane.velocity[k], force[k] + load[k])
+                } else {
+                    let beyond = &self.variation.beyond[ring];
+                    let sum = self.forces.beyond[ring][k - 2] + self.loads_beyond[ring][k - 2];
+                    (beyond.position[k], beyond.velocity[k], sum)
+                };
+            }
+        }
+        for (k, &[of_x, of_v]) in self.sensors.iter().enumerate() {
+            (x[RINGS + k], v[RINGS + k]) = (of_x, of_v);
+        }
+        let [speeds, _] = excitation.ring_speeds(0.0);
+        let by_speed = [Frame::Shaft, Frame::Housing].map(|frame| self.variation.frames[frame as usize][1]);
+        let (none, nothing) = ([0.0; SPATIAL_BODIES], [0.0; RINGS]);
+        let found = space.accelerations(&x, &v, &acting, speeds);
+        // The gyroscopic couple changes with the speed.
+        let [with, without] = [by_speed, [0.0; 2]].map(|speeds| space.accelerations(&none, &present, &nothing, speeds));
+        for i in 0..RINGS {
+            let (ring, k) = (i / COORDINATES, i % COORDINATES);
+            let sum = found[i] + (with[i] - without[i]);
+            // What the host prescribes has been set before.
+            if k < 2 {
+                self.accelerations[ring][k] += sum;
+            } else {
+                self.accelerations_beyond[ring][k - 2] += sum;
+            }
+        }
+        self.sensor_accelerations.copy_from_slice(&found[RINGS..]);
     }
 }

@@ -104,7 +104,7 @@ impl Simulation {
         self.along_inputs(knowns, seed);
         if !self.state.started {
             let excitation = self.excitation(false);
-            let (progress, loads) = (&self.state.progress, self.change.loads);
+            let (progress, loads) = (&self.state.progress, (self.change.loads, self.change.loads_beyond));
             let found = self.model.vary_equilibrium(
                 &excitation,
                 &progress.cells,
@@ -181,6 +181,10 @@ impl Simulation {
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
                     change.variation.film_speed += if ring == RingName::Shaft { value } else { -value };
                 }
+                Input::Load(name, k @ 2..) => change.loads_beyond[name.index()][k - 2] += value,
+                Input::Position(name, k @ 2..) => change.variation.beyond[name.index()].position[k] += value,
+                Input::Velocity(name, k @ 2..) => change.variation.beyond[name.index()].velocity[k] += value,
+                Input::Acceleration(name, k @ 2..) => change.accelerations_beyond[name.index()][k - 2] += value,
                 Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
                 Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
                 Input::Position(name, axis) => change.ring(name).position[axis] += value,
@@ -215,6 +219,14 @@ impl Simulation {
         for (axis, load) in excitation.shaft_load.iter().chain(&excitation.housing_load).enumerate() {
             change.loads[axis] = load.rate_at(0.0);
         }
+        let Some([v, w_z]) = layout.axial() else { return };
+        change.variation.axial.copy_from_slice(&self.derivative[v..][..z]);
+        change.variation.axial_velocity.copy_from_slice(&self.derivative[w_z..][..z]);
+        change.variation.beyond = self.model.ring_rates_in_space(excitation, 0.0, &self.derivative);
+        for (ring, beyond) in excitation.beyond.iter().enumerate() {
+            change.accelerations_beyond[ring] = beyond.motion.map(|motion| motion.0[3]);
+            change.loads_beyond[ring] = beyond.load.map(|load| load.rate_at(0.0));
+        }
     }
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness.
@@ -227,7 +239,10 @@ impl Simulation {
         self.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut self.forces.shortcuts);
 
         // At the start nothing accelerates, whatever the inputs are.
-        if self.state.started {
+        if self.state.started && self.model.space.is_some() {
+            let rings = self.model.rings_in_space(&excitation, 0.0, state, None);
+            change.accelerate_in_space(&self.model, &excitation, &rings);
+        } else if self.state.started {
             let (variation, forces) = (&change.variation, &change.forces);
             let cage = excitation.cage_at(0.0);
             let (shaft, housing) = (variation.shaft, variation.housing);
@@ -261,8 +276,15 @@ impl Simulation {
             } else {
                 state
             };
-            change.stiffness =
-                self.model.vary_stiffness(&excitation, cells, state, &change.variation, &mut self.forces.shortcuts);
+            let (by, shortcuts) = (&change.variation, &mut self.forces.shortcuts);
+            change.stiffness = match self.model.vary_stiffness_in_space(&excitation, (cells, state), by, shortcuts) {
+                Some(stiffness) => stiffness,
+                None => {
+                    let plane = self.model.vary_stiffness(&excitation, cells, state, by, shortcuts);
+                    let part = |row, column| if row < 2 && column < 2 { plane[(row, column)] } else { 0.0 };
+                    std::array::from_fn(|row| std::array::from_fn(|column| part(row, column)))
+                }
+            };
         }
     }
 
@@ -288,13 +310,19 @@ impl Simulation {
             RingName::Housing => (1, &variation.housing, forces.housing),
         };
         match quantity {
+            Quantity::Position(name, k @ 2..) => variation.beyond[name.index()].position[k],
+            Quantity::Velocity(name, k @ 2..) => variation.beyond[name.index()].velocity[k],
+            Quantity::Acceleration(name, k @ 2..) => self.change.accelerations_beyond[name.index()][k - 2],
+            Quantity::Force(name, k @ 2..) => forces.beyond[name.index()][k - 2],
+            Quantity::MeanForce(name, k @ 2..) if !self.state.started => forces.beyond[name.index()][k - 2],
+            Quantity::Probe(k @ 2..) => variation.beyond[0].position[k] - variation.beyond[1].position[k],
             Quantity::Position(name, axis) => ring(name).1.position[axis],
             Quantity::Velocity(name, axis) => ring(name).1.velocity[axis],
             Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
             Quantity::Force(name, axis) => ring(name).2[axis],
             // Before the first step the mean is the force itself.
             Quantity::MeanForce(name, axis) if !self.state.started => ring(name).2[axis],
-            Quantity::Stiffness(row, column) => -self.change.stiffness[(row, column)],
+            Quantity::Stiffness(row, column) => -self.change.stiffness[row][column],
             Quantity::SensorAcceleration(k) => {
                 self.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k] + self.change.by_sensor_modes[k]
             }
@@ -308,7 +336,9 @@ impl Simulation {
             // The spin angle is that of the defect against the element's own direction.
             Quantity::ElementSpinAngle(j) => variation.frames[Frame::Spin as usize][0] - self.element_turn(j),
             Quantity::ElementPath(j) => variation.path[j],
-            Quantity::ElementAxial(_) | Quantity::ContactAngle(..) | Quantity::ShoulderMargin(..) => f64::NAN,
+            Quantity::ElementAxial(j) => variation.axial[j],
+            Quantity::ContactAngle(j, side) => forces.contact_angles[side][j],
+            Quantity::ShoulderMargin(j, side) => self.change.of_shoulder(&self.model, &self.forces, j, side),
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::Count(_) => 0.0,

@@ -108,6 +108,7 @@ impl Simulation {
         surfaces: Arc<[Surface]>,
         map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
+        let scene = setup::with_operating_angle(&scene).into_owned();
         let (table, quantities): (Vec<_>, Vec<_>) = rows(&scene).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let (reals, integers) = setup::start_values(&table);
@@ -140,7 +141,7 @@ impl Simulation {
             method: Method::Automatic,
             forces: Forces::of(&model),
             derivative: vec![0.0; model.layout.len],
-            change: Change::new(model.element_count),
+            change: Change::new(model.element_count, model.space.is_some()),
             present_acceleration: Vector::zeros(),
             state: State {
                 time: 0.0,

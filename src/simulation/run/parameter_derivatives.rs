@@ -13,12 +13,15 @@ use crate::simulation::{Simulation, SimulationError};
 fn difference(parameter: Parameter, at: f64, nominal: f64, approach: f64) -> f64 {
     match parameter {
         Parameter::RadialClearance => approach,
+        // What turns a groove's centre by a micrometre or so over the fraction of a millimetre.
+        Parameter::ContactAngle => 1e-5,
         // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
         Parameter::ContactDamping if at > 0.0 => (0.1 * at).min(1e-2 * nominal),
         Parameter::ContactDamping => 1e-2 * nominal,
         Parameter::CageSlip | Parameter::SpinSlip => 1e-3,
-        Parameter::RingStiffness(_) if at > 0.0 => (1e-2 * at).min(1e3),
-        Parameter::RingStiffness(_) => 1e3,
+        Parameter::RingStiffness(_) | Parameter::AxialStiffness(_) if at > 0.0 => (1e-2 * at).min(1e3),
+        Parameter::RingStiffness(_) | Parameter::AxialStiffness(_) => 1e3,
+        Parameter::TiltStiffness | Parameter::Preload(_) => 1e-2,
         _ => 1e-6,
     }
 }

@@ -6,7 +6,7 @@
 //! both together become one profile, whose envelope and whose contact map are one; those farther apart keep a surface
 //! each. Overlaps are refused: which of two depths would hold is not said.
 
-use crate::contact::element_on_raceway::ElementOnRaceway;
+use super::tracks::{defect_radius, element_on_track};
 use crate::contact::law::elastic_law;
 use crate::contact::love::EdgeSoftness;
 use crate::contact::rolling::RacewaySide;
@@ -89,7 +89,7 @@ fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<
         let defect = &scene.defects[one];
         return Ok(vec![PlacedSurface { on: defect.on, surface: Cow::Borrowed(&surfaces[one]), centre: defect.angle }]);
     }
-    let radius = scene.defects[all[0]].on.radius(&scene.bearing);
+    let radius = defect_radius(&scene.bearing, scene.defects[all[0]].on);
     let mut covered: Vec<Covered> = all
         .iter()
         .map(|&index| {
@@ -138,7 +138,7 @@ fn joined<'a>(
 ) -> Result<PlacedSurface<'a>, SurfaceError> {
     let first = &covered[group[0]];
     let defect = &scene.defects[first.index];
-    let radius = defect.on.radius(&scene.bearing);
+    let radius = defect_radius(&scene.bearing, defect.on);
     if group.len() == 1 {
         return Ok(PlacedSurface {
             on: defect.on,
@@ -174,7 +174,7 @@ fn finest(arc: f64) -> f64 {
 fn needed(scene: &Scene, pair: [&Surface; 2], on: DefectOn) -> f64 {
     let depth = pair.iter().flat_map(|surface| surface.depths()).fold(0.0_f64, |most, depth| most.max(depth.abs()));
     let of = |side: &RacewaySide| {
-        let element = ElementOnRaceway::of(&scene.bearing, *side);
+        let element = element_on_track(&scene.bearing, *side);
         let approach = largest_approach(&scene.bearing, *side, largest_force(scene));
         let [along, _] = element.contact_half_axes(approach);
         let reach = |depth: f64| (2.0 * depth / element.curvatures()[0]).sqrt();
@@ -206,13 +206,28 @@ pub fn largest_force(scene: &Scene) -> f64 {
         return force;
     }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| libm::hypot(f[0], f[1])).fold(0.0, f64::max);
-    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64;
+    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
         decade *= 10.0;
     }
     PREFERRED.iter().map(|step| step * decade).find(|force| *force >= needed).unwrap_or(10.0 * decade)
 }
+
+/// Force (N) on each element of what presses the rings along the axis, at the angle at which the bearing closes.
+fn thrust_share(scene: &Scene) -> f64 {
+    let thrust = [&scene.shaft, &scene.housing].map(|ring| ring.axial.load.abs() + ring.axial.preload);
+    let thrust = thrust[0].max(thrust[1]);
+    if thrust == 0.0 {
+        return 0.0;
+    }
+    let bearing = &scene.bearing;
+    let angle = bearing.given_operating_angle().unwrap_or(0.0).max(bearing.free_contact_angle().abs());
+    thrust / (scene.bearing.element_count as f64 * libm::sin(angle.max(FLATTEST)))
+}
+
+/// Contact angle below which no bearing carries a thrust (rad): 5°.
+const FLATTEST: f64 = 0.087;
 
 /// Approach (m) of an element to a raceway under a force (N), what the ring yields outside included.
 pub(super) fn largest_approach(bearing: &Bearing, side: RacewaySide, force: f64) -> f64 {

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::tracks::{element_on_track, with_operating_angle};
 use super::arrangement::{arranged, largest_approach, largest_force, sides, softness_of_edges};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::Resolution;
@@ -78,11 +79,12 @@ impl NeededMap<'_> {
 /// # Errors
 /// Defects that overlap.
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
+    let scene = &*with_operating_angle(scene);
     let mut maps: Vec<NeededMap> = Vec::new();
     let bearing = prepared(scene);
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
-            let (element, specification) = (ElementOnRaceway::of(&bearing, side), map_specification(scene, side));
+            let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
             let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
             if !maps.iter().any(|map| map.fingerprint == fingerprint) {
                 maps.push(NeededMap { surface: spot.surface.clone(), element, specification, fingerprint });

@@ -4,10 +4,13 @@ mod arrangement;
 mod maps;
 mod model;
 mod parameters;
+mod tracks;
 
 pub use arrangement::largest_force;
 pub use maps::{NeededMap, build_map, map_fingerprint, map_specification, needed_maps, stored_map};
 pub use model::build_model;
 
 pub(in crate::simulation) use arrangement::arranged;
+pub(in crate::simulation) use tracks::with_operating_angle;
+
 pub(in crate::simulation) use parameters::{parameter, start_values, with_parameters};

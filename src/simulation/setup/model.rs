@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
 use super::maps::{map_specification, prepared};
-use crate::contact::element_on_raceway::ElementOnRaceway;
+use super::tracks::{defect_radius, element_on_track, rolling_on_track};
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::rolled_path::RigidPath;
-use crate::contact::rolling::{RacewaySide, Rolling};
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Frame, Model, WholeAngle};
-use crate::scene::{ContactLaw, DefectOn, Scene};
+use crate::scene::{ContactLaw, DefectOn, DegreesOfFreedom, Scene};
 use crate::simulation::SimulationError;
 use crate::surface::roller_profile::unread;
 use crate::surface::{Surface, SurfaceError};
@@ -26,10 +26,18 @@ fn near(
     computed: &mut Vec<Arc<ContactMap>>,
 ) -> Result<NearDefect, SimulationError> {
     let surface = &*spot.surface;
-    let rolling = Rolling::of(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
-    let (element, specification) = (ElementOnRaceway::of(&prepared(scene), side), map_specification(scene, side));
+    let bearer = defect_radius(&scene.bearing, spot.on);
+    let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
+    let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
+    if let Surface::Topography(_) = surface
+        && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two
+    {
+        return Err(SimulationError::TopographyInSpace { given: scene.bearing.degrees_of_freedom.count() });
+    }
     let near = match (scene.contact.law, surface) {
-        (ContactLaw::Hertz, Surface::Profile(profile)) => NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?),
+        (ContactLaw::Hertz, Surface::Profile(profile)) => {
+            NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?.turned_slower(shortened))
+        }
         (ContactLaw::Hertz, Surface::Topography(_)) => {
             return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
         }
@@ -45,14 +53,14 @@ fn near(
                     map
                 }
             };
-            NearDefect::Map(NearMap::new(map, rolling.bearer_radius()))
+            NearDefect::Map(NearMap::new(map, bearer))
         }
         (ContactLaw::Love, _) => {
             let grid = MapPlan::new(surface, element, specification)?.into_love();
-            NearDefect::Love(Box::new(NearLove::new(grid, rolling.bearer_radius())))
+            NearDefect::Love(Box::new(NearLove::new(grid, bearer)))
         }
     };
-    let (knots, radius) = (near.knots(), rolling.bearer_radius());
+    let (knots, radius) = (near.knots(), bearer);
     if let (Some(first), Some(last)) = (knots.first(), knots.last()) {
         // The contact's own check is for a raceway; an element is shorter around.
         let felt = Arcs { first: first * radius, last: last * radius };

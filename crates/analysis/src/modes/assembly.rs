@@ -6,7 +6,7 @@
 
 use super::defect_edge_angles;
 use super::defect_edge_angles::Edge;
-use crate::statics::StaticError;
+use crate::statics::{StaticError, in_the_plane};
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
@@ -122,6 +122,7 @@ impl Assembly {
         profiles: impl IntoIterator<Item = &'p str>,
         map: Option<&[u8]>,
     ) -> Result<Self, StaticError> {
+        in_the_plane(scene)?;
         let profiles: Vec<&str> = profiles.into_iter().collect();
         let scene = &with_roller_profile(scene, profiles.iter().copied())?;
         let held = scene.shaft.motion != Motion::Internal;

@@ -6,6 +6,8 @@ mod stiffness;
 
 pub use critical_load::{Bottom, CriticalLoad, NoCriticalLoad, Sensitivity};
 pub use static_bearing::{Balance, LoadedElement, StaticBearing, StaticError};
+
+pub(crate) use static_bearing::in_the_plane;
 pub use stiffness::{min_mean_max, sweep};
 
 pub(crate) use stiffness::{evenly_spaced, with_changes};

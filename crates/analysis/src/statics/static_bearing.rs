@@ -19,7 +19,7 @@ use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::parameters::{Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
-use brinell::scene::{DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
+use brinell::scene::{DegreesOfFreedom, DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, SurfaceError, with_roller_profile};
@@ -49,6 +49,15 @@ pub enum StaticError {
         /// The reason.
         cause: EquilibriumError,
     },
+    /// Rings that move along the axis or tilt.
+    #[error(
+        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of rings in \
+         space is among the outputs of a run (shaft.stiffness.zz and its like)"
+    )]
+    InSpace {
+        /// Degrees of freedom.
+        given: usize,
+    },
     /// A load of nothing has no direction.
     #[error("the load on the bearing is {load:?} N: it must be finite and not 0; give shaft.load_n, or a load")]
     NoLoad {
@@ -64,6 +73,14 @@ pub enum StaticError {
         /// Greatest depth of their path (µm).
         depth_um: f64,
     },
+}
+
+/// Refuses rings that move along the axis or tilt.
+pub(crate) fn in_the_plane(scene: &Scene) -> Result<(), StaticError> {
+    match scene.bearing.degrees_of_freedom {
+        DegreesOfFreedom::Two => Ok(()),
+        more => Err(StaticError::InSpace { given: more.count() }),
+    }
 }
 
 /// A bearing under static load, its outer ring held.
@@ -145,6 +162,7 @@ impl StaticBearing {
         map: Option<&[u8]>,
     ) -> Result<Self, StaticError> {
         scene.check()?;
+        in_the_plane(scene)?;
         let profiles: Vec<&str> = profiles.into_iter().collect();
         let scene = &with_roller_profile(scene, profiles.iter().copied())?;
         let surfaces = Surface::load_all(scene, profiles)?;

@@ -71,7 +71,7 @@ pub(in crate::simulation) fn first_crossing(
     let [start, end] = [(span.from, &progress.state), (span.end(), &buffers.end)].map(|(tau, state)| Instant {
         now: model.kinematics(problem.excitation, tau, state),
         tau,
-        paths: state,
+        state,
     });
     let mut first: Option<Candidate> = None;
     for at in watched(problem, progress) {
@@ -109,7 +109,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
         probe(workspace, problem, span, share, progress);
         let tau = span.from + share * span.length;
         let now = model.kinematics(problem.excitation, tau, &workspace.dense);
-        let there = Instant { now, tau, paths: &workspace.dense };
+        let there = Instant { now, tau, state: &workspace.dense };
         let made = begun.travel(problem, &there, &mut workspace.forces.shortcuts.leads) / way;
         let beyond = made >= 1.0;
         if beyond {
@@ -130,7 +130,7 @@ fn root(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Prog
 struct Instant<'a> {
     now: FramedKinematics,
     tau: f64,
-    paths: &'a [f64],
+    state: &'a [f64],
 }
 
 /// All contacts with the inner raceway that may meet a defect; in an uneven cage those with the outer one as well.
@@ -163,7 +163,8 @@ impl Instant<'_> {
         let of_cage = model.lead_with(j, self.now.cage_angle(), pieces);
         match at.contact {
             Contact::Inner(_) | Contact::Own(_, 0) => {
-                model.inner_lead(j, self.paths[j], &self.now, &of_cage) + of_cage.angle
+                let at = (problem.excitation, self.tau);
+                model.seen_from_inside(j, at, self.state, &self.now, &of_cage) + of_cage.angle
             }
             _ => of_cage.angle,
         }

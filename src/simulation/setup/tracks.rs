@@ -1,0 +1,114 @@
+//! Where elements run on the raceways: at the groove's bottom, or in space at the operating angle α_n.
+//!
+//! A track at α_n is a circle of radius R_c about its ring's axis, with the curvature cos α_n/R_c along rolling. So a
+//! raceway of the radius R_n = R_c/cos α_n stands for it, on which an angle d around the ring is d cos α_n: arcs are the
+//! same, R_c d = R_n d cos α_n.
+
+use std::borrow::Cow;
+
+use crate::contact::element_on_raceway::ElementOnRaceway;
+use crate::contact::rolling::{RacewaySide, Rolling};
+use crate::dynamics::contacts::{Forces, Shortcuts};
+use crate::dynamics::parameters::{Beyond, Excitation, Model, Quadratic};
+use crate::scene::{Bearing, DefectOn, DegreesOfFreedom, Motion, Scene};
+
+/// Change of the operating angle below which it is that of the balance (rad): a thousandth of a degree.
+const SETTLED: f64 = 1.7e-5;
+/// Most balances that are looked for.
+const MOST: usize = 20;
+
+/// Operating angle of a bearing in space (rad); 0 in the plane.
+fn angle_of(bearing: &Bearing) -> f64 {
+    bearing.given_operating_angle().filter(|_| bearing.degrees_of_freedom != DegreesOfFreedom::Two).unwrap_or(0.0)
+}
+
+/// An element on one raceway's track.
+pub(super) fn element_on_track(bearing: &Bearing, side: RacewaySide) -> ElementOnRaceway {
+    match angle_of(bearing) {
+        0.0 => ElementOnRaceway::of(bearing, side),
+        angle => ElementOnRaceway::at_angle(bearing, side, angle),
+    }
+}
+
+/// How it rolls there, over a defect of the element or of the raceway; and cos α_n by which angles around what bears the
+/// defect are shorter there.
+pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element: bool) -> (Rolling, f64) {
+    let rolling = Rolling::of(bearing, side, on_element);
+    match angle_of(bearing) {
+        0.0 => (rolling, 1.0),
+        angle => {
+            let raceway_radius = element_on_track(bearing, side).raceway_radius;
+            (Rolling { raceway_radius, ..rolling }, if on_element { 1.0 } else { libm::cos(angle) })
+        }
+    }
+}
+
+/// Radius of a body where its defects are (m).
+pub(super) fn defect_radius(bearing: &Bearing, on: DefectOn) -> f64 {
+    match (on, angle_of(bearing)) {
+        (_, 0.0) | (DefectOn::Element { .. }, _) => on.radius(bearing),
+        (DefectOn::Outer, angle) => RacewaySide::Outer.track_radius(bearing, angle),
+        (DefectOn::Inner, angle) => RacewaySide::Inner.track_radius(bearing, angle),
+    }
+}
+
+/// The scene with the operating angle that it leaves open: with free rings the mean |α| of the start's balance on smooth
+/// raceways, weighted with the forces, and 0 where a host moves a ring.
+pub(in crate::simulation) fn with_operating_angle(scene: &Scene) -> Cow<'_, Scene> {
+    let bearing = &scene.bearing;
+    if bearing.degrees_of_freedom == DegreesOfFreedom::Two || bearing.given_operating_angle().is_some() {
+        return Cow::Borrowed(scene);
+    }
+    let mut scene = scene.clone();
+    scene.bearing.operating_angle = Some(0.0);
+    let hosted = [&scene.shaft, &scene.housing].iter().any(|ring| ring.motion == Motion::Host);
+    if hosted || bearing.roller().is_some() {
+        return Cow::Owned(scene);
+    }
+    let mut angle = 0.0f64;
+    for _ in 0..MOST {
+        scene.bearing.operating_angle = Some(angle);
+        // Where there is no balance, it is told when the start is looked for.
+        let Some(next) = balanced_angle(&scene) else { break };
+        let settled = (next - angle).abs() < SETTLED;
+        angle = next;
+        if settled {
+            break;
+        }
+    }
+    scene.bearing.operating_angle = Some(angle);
+    Cow::Owned(scene)
+}
+
+/// Mean |α| (rad) of all contacts in the static balance of a scene without its defects, weighted with their forces.
+fn balanced_angle(scene: &Scene) -> Option<f64> {
+    let model = Model::smooth(scene);
+    let space = model.space.as_ref()?;
+    let speeds = [scene.shaft_speed, scene.housing_speed.unwrap_or(0.0)];
+    let cage = model.ratios.cage[0] * speeds[0] + model.ratios.cage[1] * speeds[1];
+    let load = |load: [f64; 2]| load.map(Quadratic::constant);
+    let excitation = Excitation {
+        cage: Quadratic([0.0, cage, 0.0]),
+        shaft_load: load(scene.shaft.load),
+        housing_load: load(scene.housing.load),
+        beyond: [&scene.shaft, &scene.housing].map(|ring| {
+            let [m_x, m_y] = ring.tilt.load_moment;
+            Beyond { load: [ring.axial.load, m_x, m_y].map(Quadratic::constant), ..Beyond::default() }
+        }),
+        ..Excitation::standing(scene.cage.initial_angle, [0.0; 3])
+    };
+    let mut state = vec![0.0; model.layout.len];
+    let cells = model.equilibrium_with_cells(&excitation, &mut state).ok()?;
+    let (mut forces, mut derivative) = (Forces::of(&model), vec![0.0; model.layout.len]);
+    forces.shortcuts = Shortcuts::of(&model);
+    model.derivative(&excitation, 0.0, &cells, &state, &mut derivative, &mut forces);
+    let contacts = &forces.contacts;
+    let (mut sum, mut total) = (0.0, 0.0);
+    for j in 0..model.element_count {
+        for (side, force) in [contacts.inner[j], contacts.outer[j]].into_iter().enumerate() {
+            sum += force * contacts.contact_angle(space, j, side).abs();
+            total += force;
+        }
+    }
+    (total > 0.0).then(|| sum / total)
+}

@@ -1,0 +1,192 @@
+//! Derivatives against differences.
+
+use super::*;
+use brinell::dynamics::contacts::{Forces, Shortcuts};
+use brinell::dynamics::derivatives::Jacobian;
+use brinell::scene::{ContactLaw, Damping, Sensor};
+use std::f64::consts::{PI, TAU};
+
+/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its loads.
+fn moving(bearing: Bearing) -> Simulation {
+    let mut sensor = Sensor::default();
+    sensor.set_direction([0.6, 0.64, 0.48]);
+    let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 60.0);
+    let scene = scene.shaft_load([20.0, -200.0]).axial_load(400.0).cage(0.0, -0.5 * PI + 0.004).sensor(sensor);
+    let scene = scene.spall(-0.5 * PI, 0.5e-3, 50e-6).law(ContactLaw::Hertz).damping(Damping::HuntCrossley(0.5));
+    let mut scene = scene.build().unwrap();
+    scene.shaft.tilt.load_moment = [0.3, 0.2];
+    let mut simulation = started(scene);
+    simulation.set("shaft.load.z", 500.0).unwrap();
+    simulation.set("shaft.load_moment.x", -0.3).unwrap();
+    simulation.step(0.3e-3).unwrap();
+    simulation
+}
+
+#[test]
+fn the_jacobian_is_the_quotient_of_differences() {
+    for bearing in [angular(25.0), b6205(8e-6)] {
+        let simulation = moving(bearing);
+        let (model, mut excitation) = simulation.equations();
+        excitation.beyond[0].load[0].0[1] = 1e4;
+        let (state, cells, len) = (simulation.state_vector().to_vec(), simulation.cells().clone(), model.layout.len);
+        let mut jacobian = Jacobian::new(model);
+        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
+        let matrix = jacobian.matrix(len);
+        let mut forces = Forces::of(model);
+        let mut rate = |tau: f64, state: &[f64]| {
+            let mut rate = vec![0.0; len];
+            model.derivative(&excitation, tau, &cells, state, &mut rate, &mut forces);
+            rate
+        };
+        let quotient = |of: &mut dyn FnMut(f64) -> Vec<f64>, h: f64| {
+            let (a, b) = (of(h), of(-h));
+            let (c, d) = (of(2.0 * h), of(-2.0 * h));
+            (0..len).map(|i| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h)).collect::<Vec<_>>()
+        };
+        for column in (0..len).filter(|&i| model.layout.is_used(i)) {
+            // A thousandth of an approach of some micrometres, or of a velocity's effect.
+            let h = if model.layout.is_position(column) { 1e-9 } else { 1e-4 };
+            let found = quotient(
+                &mut |by| {
+                    let mut moved = state.clone();
+                    moved[column] += by;
+                    rate(0.0, &moved)
+                },
+                h,
+            );
+            let scale = (0..len).map(|row| matrix[row][column].abs()).fold(0.0, f64::max);
+            for row in 0..len {
+                let miss = (found[row] - matrix[row][column]).abs();
+                assert!(
+                    miss <= 1e-6 * scale.max(1.0),
+                    "{} by {}: {:e} {:e}",
+                    model.layout.name(row),
+                    model.layout.name(column),
+                    matrix[row][column],
+                    found[row]
+                );
+            }
+        }
+        let found = quotient(&mut |by| rate(by, &state), 1e-8);
+        let scale = jacobian.by_time.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
+        for row in 0..len {
+            assert!((found[row] - jacobian.by_time[row]).abs() < 1e-6 * scale, "{}", model.layout.name(row));
+        }
+    }
+}
+
+/// Outputs that follow at once.
+const OUTPUTS: [&str; 9] = [
+    "shaft.force.z",
+    "shaft.moment.x",
+    "shaft.force.y",
+    "housing.force.x",
+    "housing.moment.y",
+    "element[2].force.outer",
+    "element[1].contact_angle.inner",
+    "shaft.stiffness.yz",
+    "shaft.stiffness.tilt_x_y",
+];
+
+#[test]
+fn what_a_host_moves_changes_outputs_by_the_directional_derivative() {
+    let scene = Scene::builder(angular(25.0)).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 60.0);
+    let scene = scene.shaft(Ring::hosted()).housing(Ring::hosted()).law(ContactLaw::Hertz);
+    let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+    let inputs = [
+        ("shaft.x", 2e-6, 1e-9),
+        ("shaft.z", 14e-6, 1e-9),
+        ("shaft.tilt.x", 1e-4, 1e-7),
+        ("shaft.tilt.vy", 1e-2, 1e-4),
+        ("housing.tilt.y", -1e-4, 1e-7),
+        ("housing.vz", 1e-3, 1e-5),
+        ("shaft.speed", TAU * 60.0, 1e-2),
+    ];
+    for (name, value, _) in inputs {
+        simulation.set(name, value).unwrap();
+    }
+    let outputs: Vec<u32> = OUTPUTS.iter().map(|name| simulation.reference(name).unwrap()).collect();
+    for started in [false, true] {
+        if started {
+            simulation.initialize(0.0).unwrap();
+            simulation.step(1e-4).unwrap();
+        }
+        for (name, value, h) in inputs {
+            let input = simulation.reference(name).unwrap();
+            let mut exact = vec![0.0; outputs.len()];
+            simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
+            let value = if started { simulation.get(name).unwrap() } else { value };
+            let mut at = |by: f64| {
+                simulation.set(name, value + by).unwrap();
+                let mut found = vec![0.0; outputs.len()];
+                simulation.reals(&outputs, &mut found).unwrap();
+                found
+            };
+            let (above, below) = (at(h), at(-h));
+            at(0.0);
+            for (k, output) in OUTPUTS.iter().enumerate() {
+                let quotient = (above[k] - below[k]) / (2.0 * h);
+                let size = (above[k].abs() + below[k].abs()) / 2.0;
+                // Second order of the step, and roundings of the values over it.
+                let limit = 1e-4 * quotient.abs().max(exact[k].abs()) + 1e-10 * size / h;
+                assert!((quotient - exact[k]).abs() <= limit, "{started} {output} by {name}: {:e} {quotient:e}", exact[k]);
+            }
+        }
+    }
+}
+
+#[test]
+fn loads_move_the_balance_by_the_directional_derivative() {
+    let scene = free_shaft(b6205(8e-6), DegreesOfFreedom::Five).shaft_load([0.0, -250.0]).axial_load(350.0);
+    let scene = scene.shaft_speed(TAU * 40.0).cage(0.0, -1.3).law(ContactLaw::Hertz);
+    let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+    let names = ["shaft.y", "shaft.z", "shaft.tilt.x", "element[2].path", "element[2].axial", "element[2].force.inner"];
+    let outputs = names.map(|name| simulation.reference(name).unwrap());
+    for (name, value, h) in [("shaft.load.z", 350.0, 1e-2), ("shaft.load_moment.y", 0.1, 1e-4), ("shaft.load.x", 0.0, 1e-2)] {
+        simulation.set(name, value).unwrap();
+        let input = simulation.reference(name).unwrap();
+        let mut exact = [0.0; 6];
+        simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
+        let mut at = |by: f64| {
+            simulation.set(name, value + by).unwrap();
+            let mut found = [0.0; 6];
+            simulation.reals(&outputs, &mut found).unwrap();
+            found
+        };
+        let (above, below) = (at(h), at(-h));
+        at(0.0);
+        for k in 0..6 {
+            let quotient = (above[k] - below[k]) / (2.0 * h);
+            let size = above[k].abs().max(below[k].abs());
+            let limit = 1e-5 * quotient.abs() + 1e-11 * size / h;
+            assert!((quotient - exact[k]).abs() <= limit, "{} by {name}: {:e} {quotient:e}", names[k], exact[k]);
+        }
+    }
+}
+
+#[test]
+fn outputs_change_by_time_as_their_derivatives_say() {
+    let mut simulation = moving(angular(25.0));
+    let names = ["shaft.force.z", "shaft.moment.y", "shaft.az", "element[2].axial", "element[2].contact_angle.outer"];
+    let outputs = names.map(|name| simulation.reference(name).unwrap());
+    let mut exact = [0.0; 5];
+    simulation.output_derivatives(&outputs, &[1; 5], &mut exact).unwrap();
+    let state = simulation.save();
+    let mut after = |h: f64| {
+        simulation.restore(&state).unwrap();
+        simulation.step(h).unwrap();
+        let mut found = [0.0; 5];
+        simulation.reals(&outputs, &mut found).unwrap();
+        found
+    };
+    let h = 2e-8;
+    let (one, two) = (after(h), after(2.0 * h));
+    simulation.restore(&state).unwrap();
+    let mut here = [0.0; 5];
+    simulation.reals(&outputs, &mut here).unwrap();
+    for k in 0..5 {
+        let quotient = (4.0 * one[k] - two[k] - 3.0 * here[k]) / (2.0 * h);
+        let limit = 2e-3 * quotient.abs().max(exact[k].abs()) + 1e-9 * here[k].abs() / h;
+        assert!((quotient - exact[k]).abs() <= limit, "{}: {:e} {quotient:e}", names[k], exact[k]);
+    }
+}

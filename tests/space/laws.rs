@@ -1,0 +1,221 @@
+//! What must hold whatever the figures are: energy, mirror, turning by one pitch, the plane, states put back.
+
+use super::*;
+use brinell::scene::{ContactLaw, Damping};
+use brinell::simulation::Method;
+use std::f64::consts::{PI, TAU};
+
+/// A 6205 in motion whose axial and radial load step.
+fn lively(bearing: Bearing) -> SceneBuilder {
+    let scene = free_shaft(bearing, DegreesOfFreedom::Three).shaft_speed(TAU * 40.0).cage(0.0, -1.3);
+    scene.shaft_load([0.0, -300.0]).axial_load(250.0).law(ContactLaw::Hertz).tolerance(1e-10)
+}
+
+#[test]
+fn energy_is_what_the_cage_has_put_in() {
+    let mut shaft = Ring { damping: 0.0, ..Ring::default_shaft() };
+    shaft.axial.damping = 0.0;
+    let mut scene = lively(b6205(8e-6)).shaft(shaft).damping(Damping::HuntCrossley(0.0)).build().unwrap();
+    (scene.shaft.load, scene.shaft.axial.load, scene.contact.across_damping) = ([0.0, -300.0], 250.0, Some(0.0));
+    let mass = scene.shaft.mass;
+    let mut simulation = started(scene);
+    let energy = |simulation: &mut Simulation, loads: [f64; 3]| {
+        let (x, v) = (
+            values(simulation, ["shaft.x", "shaft.y", "shaft.z"]),
+            values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]),
+        );
+        let speed = simulation.get("cage.speed").unwrap();
+        let angles: Vec<f64> = (1..10).map(|j| simulation.get(&format!("element[{j}].angle")).unwrap()).collect();
+        let (model, _) = simulation.equations();
+        let (m, ball) = (model.element_mass, model.outer_centre_radius);
+        let laws = [&model.inner, &model.outer].map(|raceway| raceway.contact.law.stiffness);
+        let (state, layout) = (simulation.state_vector(), &model.layout);
+        let [v_start, w_z] = layout.axial().unwrap();
+        let _ = v_start;
+        let mut sum = 0.5 * mass * v.iter().map(|v| v * v).sum::<f64>();
+        sum -= loads.iter().zip(x).map(|(load, x)| load * x).sum::<f64>();
+        for (j, angle) in angles.iter().enumerate() {
+            let rho = ball + state[j];
+            let (w, axial) = (state[layout.radial_velocity + j], state[w_z + j]);
+            sum += 0.5 * m * (w * w + (rho * speed).powi(2) + axial * axial) + m * 9.81 * rho * angle.sin();
+        }
+        for j in 1..10 {
+            for (raceway, k) in ["inner", "outer"].iter().zip(laws) {
+                let force = simulation.get(&format!("element[{j}].force.{raceway}")).unwrap();
+                // 2/5 K δ^(5/2) of Q = K δ^(3/2).
+                sum += 0.4 * k * (force / k).powf(5.0 / 3.0);
+            }
+        }
+        sum
+    };
+    let loads = [40.0, -250.0, 330.0];
+    for (axis, load) in ["x", "y", "z"].iter().zip(loads) {
+        simulation.set(&format!("shaft.load.{axis}"), load).unwrap();
+    }
+    let first = energy(&mut simulation, loads);
+    let kinetic = |simulation: &mut Simulation| {
+        let v = values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]);
+        0.5 * mass * v.iter().map(|v| v * v).sum::<f64>()
+    };
+    // Simpson's rule over half microseconds: the fastest vibration turns by 0.2 rad in one.
+    let (h, count) = (0.5e-6, 1000);
+    let power = |simulation: &mut Simulation| {
+        simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap()
+    };
+    let (mut work, mut most) = (0.0, 0.0f64);
+    let mut before = power(&mut simulation);
+    for _ in 0..count {
+        simulation.step(h).unwrap();
+        let middle = power(&mut simulation);
+        simulation.step(h).unwrap();
+        let after = power(&mut simulation);
+        // The cage's torque is that of the elements on it.
+        work -= (before + 4.0 * middle + after) * h / 3.0;
+        before = after;
+        most = most.max(kinetic(&mut simulation));
+    }
+    let last = energy(&mut simulation, loads);
+    assert!(most > 1e-6, "{most:e}");
+    // Tolerance 1e-10 of an approach of 5 µm under 100 N, 5e-14 J, over a thousand steps that add up.
+    assert!((last - first - work).abs() < 1e-6 * most, "{:e} of {most:e}", last - first - work);
+}
+
+#[test]
+fn the_mirror_image_moves_as_the_mirror_image() {
+    let of = |way: f64| {
+        let mut bearing = angular(25.0);
+        bearing.set_contact_angle(way * 25f64.to_radians());
+        let scene = lively(bearing).axial_load(way * 250.0);
+        let mut simulation = started(scene.build().unwrap());
+        simulation.set("shaft.load.x", 50.0).unwrap();
+        simulation.set("shaft.load.z", way * 300.0).unwrap();
+        simulation.step(2e-3).unwrap();
+        simulation
+    };
+    let (mut one, mut other) = (of(1.0), of(-1.0));
+    for (name, way) in [
+        ("shaft.x", 1.0),
+        ("shaft.y", 1.0),
+        ("shaft.z", -1.0),
+        ("element[2].path", 1.0),
+        ("element[2].axial", -1.0),
+        ("element[3].force.inner", 1.0),
+        ("element[3].contact_angle.outer", -1.0),
+        ("shaft.stiffness.xz", -1.0),
+        ("shaft.stiffness.yy", 1.0),
+    ] {
+        let (found, expected) = (one.get(name).unwrap(), way * other.get(name).unwrap());
+        // Signs alone differ, and roundings with them where terms cancel.
+        assert!((found - expected).abs() <= 1e-12 * expected.abs() + 1e-18, "{name}: {found:e} {expected:e}");
+    }
+}
+
+#[test]
+fn a_cage_turned_by_one_pitch_permutes_the_elements() {
+    let of = |turned: f64| {
+        let mut simulation = started(lively(b6205(8e-6)).cage(0.0, -1.3 + turned).build().unwrap());
+        simulation.set("shaft.load.x", 50.0).unwrap();
+        simulation.set("shaft.load.z", 300.0).unwrap();
+        simulation.step(2e-3).unwrap();
+        simulation
+    };
+    let (mut one, mut other) = (of(0.0), of(TAU / 9.0));
+    for (name, turned, scale) in [
+        ("shaft.y", "shaft.y", 1e-6),
+        ("shaft.z", "shaft.z", 1e-6),
+        ("element[4].path", "element[3].path", 1e-6),
+        ("element[1].axial", "element[9].axial", 1e-6),
+        ("element[2].force.inner", "element[1].force.inner", 100.0),
+    ] {
+        let (found, expected) = (one.get(name).unwrap(), other.get(turned).unwrap());
+        // Angles of 1 rad round to 1e-16, forces to some 1e-14 a step.
+        assert!((found - expected).abs() < 1e-9 * scale, "{name}: {found:e} {expected:e}");
+    }
+}
+
+#[test]
+fn without_axial_load_a_bearing_in_space_is_its_twin_in_the_plane() {
+    let of = |freedom| {
+        let mut shaft = Ring::default_shaft();
+        if freedom == DegreesOfFreedom::Three {
+            // Something must hold z.
+            shaft.axial.stiffness = 1.0;
+        }
+        let scene = Scene::builder(b6205(5e-6)).degrees_of_freedom(freedom).shaft(shaft).shaft_speed(TAU * 30.0);
+        let scene = scene.shaft_load([0.0, -800.0]).spall(-0.5 * PI, 0.6e-3, 50e-6).cage(0.0, -1.72);
+        started(scene.law(ContactLaw::Hertz).tolerance(1e-9).build().unwrap())
+    };
+    let (mut space, mut plane) = (of(DegreesOfFreedom::Three), of(DegreesOfFreedom::Two));
+    let names = ["shaft.x", "shaft.y", "housing.y", "element[1].path", "element[2].path"];
+    for _ in 0..40 {
+        for (found, expected) in values(&mut space, names).into_iter().zip(values(&mut plane, names)) {
+            // The tolerance of an approach of 10 µm, over some hundred steps.
+            assert!((found - expected).abs() < 1e-12, "{found:e} {expected:e}");
+        }
+        assert_eq!(values(&mut space, ["shaft.z", "element[1].axial", "shaft.force.z"]), [0.0; 3]);
+        for simulation in [&mut space, &mut plane] {
+            simulation.step(1e-4).unwrap();
+        }
+    }
+}
+
+#[test]
+fn every_method_goes_the_same_way() {
+    let of = |method| {
+        let mut scene = lively(angular(25.0)).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-9);
+        scene = scene.damping(Damping::HuntCrossley(2.0));
+        let mut scene = scene.build().unwrap();
+        scene.shaft.tilt.load_moment = [0.4, 0.2];
+        let mut simulation = started(scene);
+        simulation.set_method(method);
+        simulation.set("shaft.load.x", 50.0).unwrap();
+        simulation.set("shaft.load.z", 400.0).unwrap();
+        simulation.set("shaft.load_moment.y", -0.4).unwrap();
+        simulation.step(1.5e-3).unwrap();
+        values(&mut simulation, ["shaft.x", "shaft.y", "shaft.z", "shaft.tilt.x", "shaft.tilt.y", "element[3].axial"])
+    };
+    let expected = of(Method::DormandPrince);
+    for method in [Method::PhaseFitted, Method::Rodas, Method::Automatic] {
+        for (found, expected) in of(method).into_iter().zip(expected) {
+            // 1e-9 of 5 µm a step; the error of a tilt is that over the pitch radius.
+            assert!((found - expected).abs() < 2e-11 * (1.0 + 50.0 * f64::from(u8::from(expected.abs() > 1e-4))));
+        }
+    }
+}
+
+#[test]
+fn a_state_put_back_goes_on_with_the_same_bits() {
+    let mut scene = lively(b6205(8e-6)).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-6).build().unwrap();
+    scene.shaft.tilt.load_moment = [0.4, 0.2];
+    let mut simulation = started(scene);
+    simulation.set("shaft.load.z", 400.0).unwrap();
+    simulation.step(1e-3).unwrap();
+    let bytes = simulation.save().to_bytes();
+    assert_eq!(bytes.len(), simulation.save().byte_count());
+    let names = ["shaft.x", "shaft.z", "shaft.tilt.x", "element[3].axial", "element[3].force.outer", "shaft.mean_force.z"];
+    let names: Vec<&str> = names.into_iter().filter(|name| simulation.reference(name).is_ok()).collect();
+    let mut go_on = |simulation: &mut Simulation| {
+        simulation.step(1e-3).unwrap();
+        names.iter().map(|name| simulation.get(name).unwrap().to_bits()).collect::<Vec<_>>()
+    };
+    let first = go_on(&mut simulation);
+    let state = simulation.state_from_bytes(&bytes).unwrap();
+    simulation.restore(&state).unwrap();
+    assert_eq!(go_on(&mut simulation), first);
+}
+
+#[test]
+fn the_operating_angle_is_that_of_the_balance_and_moves_the_cage() {
+    let thrust = free_shaft(b6205(5e-6), DegreesOfFreedom::Three).axial_load(1000.0).shaft_speed(TAU * 10.0);
+    let mut found = started(thrust.gravity([0.0; 2]).build().unwrap());
+    let [angle, contact] = values(&mut found, ["bearing.operating_angle", "element[1].contact_angle.inner"]);
+    // A thousandth of a degree ends the search; centrifugal force at 10 Hz parts the angles by less.
+    assert!((angle - contact).abs() < 5e-4 && (angle.to_degrees() - 18.167).abs() < 0.02, "{angle} {contact}");
+    let gamma = 7.94 / 39.04 * angle.cos();
+    let cage = found.get("cage.speed").unwrap();
+    assert!((cage / (0.5 * TAU * 10.0 * (1.0 - gamma)) - 1.0).abs() < 1e-13);
+    let mut shaft = Ring::default_shaft();
+    shaft.axial.stiffness = 1e3;
+    let radial = free_shaft(b6205(5e-6), DegreesOfFreedom::Three).shaft(shaft).shaft_load([0.0, -500.0]);
+    assert_eq!(started(radial.build().unwrap()).get("bearing.operating_angle").unwrap(), 0.0);
+}
