@@ -122,7 +122,8 @@ impl Kernel for Probe<'_> {
                 let start =
                     Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
                 let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
-                model.dense_output(excitation, [start, end], [h, share], &cage, &mut forces.shortcuts.leads, dense);
+                let pieces = &mut forces.shortcuts.leads;
+                model.dense_output(simd, excitation, [start, end], [h, share], &cage, pieces, dense);
             }
         }
         let stage = Stage { excitation, cage: &cage, state: dense, ahead: None };
