@@ -109,10 +109,12 @@ impl NearLove {
         &self,
         cell: usize,
         [u, s]: [f64; 2],
+        along_path: bool,
         solvers: &mut LoveSolvers,
     ) -> Result<EquivalentApproach, ContactError> {
         match self.flats[cell] {
             Some(depth) => Ok(EquivalentApproach::flat(u, depth)),
+            None if along_path => solvers.of(self).solve_along_path(u, s),
             None => solvers.of(self).solve(u, s),
         }
     }
@@ -215,7 +217,7 @@ impl NearDefect {
             }
             Self::Love(near) => {
                 let at = [u, angle * T::Plain::from(near.bearer_radius)];
-                let found = near.solve(cell, at.map(T::value), solvers)?;
+                let found = near.solve(cell, at.map(T::value), !curved, solvers)?;
                 let second = &mut |at: [f64; 2]| match curved {
                     true => near.second_derivatives(cell, at, solvers).map(SecondDerivatives::rows),
                     false => Ok([found.duu, found.dus, 0.0]),

@@ -35,6 +35,13 @@ pub fn blocks_mut(list: &mut [f64]) -> &mut [[f64; WIDEST]] {
     list.as_chunks_mut().0
 }
 
+/// Each block and part of it that holds any of the first `count` numbers.
+#[inline(always)]
+pub fn groups<S: Wide>(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    let parts = WIDEST / S::F64_LANES;
+    (0..count.div_ceil(S::F64_LANES)).map(move |group| (group / parts, group % parts))
+}
+
 /// Whole blocks of four numbers.
 #[inline(always)]
 pub fn quads(list: &[f64]) -> &[[f64; QUAD]] {
@@ -55,7 +62,9 @@ pub trait Wide: Simd {
     /// The same machine with four lanes.
     fn quad(self) -> Self::Quad;
 
-    /// Runs a kernel as a function of its own, not as a part of the caller.
+    /// Runs a kernel as a function of its own, not as a part of the caller. A step with all of its stages written out
+    /// is longer than what a processor keeps decoded, which costs a third of the speed; and what few bearings need is
+    /// in no register's way there.
     fn outlined<K: Kernel>(self, kernel: K) -> K::Output;
 
     /// Four numbers in one register.
@@ -115,11 +124,13 @@ impl Wide for Scalar256b {
     }
 }
 
+mod compiler;
 mod partition;
 pub mod row;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod x86;
 
+pub use compiler::{handed_on, stay_a_branch};
 pub use partition::Partition;
 
 /// What runs on several numbers at a time.
@@ -258,6 +269,34 @@ impl<S: Wide> Lanes<S> {
     #[inline(always)]
     pub fn store(self, to: &mut [f64], at: usize) {
         S::as_mut_simd_f64s(&mut to[at..at + S::F64_LANES]).0[0] = self.1;
+    }
+
+    /// A function of each number by itself; the compiler takes them together where it has no branch.
+    #[inline(always)]
+    pub fn each(self, of: impl Fn(f64) -> f64) -> Self {
+        let mut numbers = [0.0; WIDEST];
+        self.put(&mut numbers, 0);
+        for number in numbers.iter_mut().take(S::F64_LANES) {
+            *number = of(*number);
+        }
+        Self::part(self.0, &numbers, 0)
+    }
+
+    /// The cubic of each number's step in a table, coefficients from the constant on, and where in that step the number
+    /// is; `steps` count from the table's beginning. NaN has the first step and stays NaN.
+    #[inline(always)]
+    pub fn cubics(steps: Self, table: &[[f64; 4]]) -> ([Self; 4], Self) {
+        let (mut numbers, mut coefficients) = ([0.0; WIDEST], [[0.0; WIDEST]; 4]);
+        steps.put(&mut numbers, 0);
+        for (i, number) in numbers.iter_mut().enumerate().take(S::F64_LANES) {
+            let step = (*number as usize).min(table.len() - 1);
+            for (coefficient, of_step) in coefficients.iter_mut().zip(table[step]) {
+                coefficient[i] = of_step;
+            }
+            *number = step as f64;
+        }
+        let part = |numbers: &[f64; WIDEST]| Self::part(steps.0, numbers, 0);
+        (coefficients.each_ref().map(part), steps - part(&numbers))
     }
 
     /// Square root.

@@ -17,4 +17,4 @@ pub(crate) mod trees;
 pub use elementary::counter_noise;
 pub use elementary::ninth_root::ninth_root;
 pub use elementary::power::rough_power;
-pub use elementary::trigonometry::{sin_cos, wrap};
+pub use elementary::trigonometry::{SMALL_ANGLE, direction_angle, sin_cos, small_turn, wrap};

@@ -14,7 +14,9 @@
 //! and by 6 %; 40 laminae and 640 differ by 2e-4. The force is one of one variable, so its energy is its integral.
 
 use crate::geometry::line_contact::LINE_ORDER;
+use crate::numerics::lanes::{Lanes, Wide};
 use crate::numerics::ninth_root;
+use crate::numerics::number::{Number, Pair};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Steps of the table.
@@ -125,6 +127,26 @@ impl Crown {
     }
 }
 
+impl Pair for Crown {
+    #[inline(always)]
+    fn of(&self, x: f64, order: usize) -> [f64; 2] {
+        self.part_and_order(x, order)
+    }
+
+    #[inline(always)]
+    fn of_lanes<S: Wide>(&self, delta: Lanes<S>) -> [Lanes<S>; 2] {
+        let number = |number: f64| delta.plain(number);
+        let square = delta / (delta + number(self.mean_depth));
+        let s = square.sqrt();
+        let ([a, b, c, d], t) = Lanes::cubics(s * number(NODES as f64), &self.cubics);
+        let part = a + t * (b + t * (c + t * d));
+        let by_s = (b + t * (number(2.0) * c + t * (number(3.0) * d))) * number(NODES as f64);
+        let pace = number(0.5) * s * (number(1.0) - square);
+        let slope = number(10.0 / 9.0) * part + pace * by_s;
+        [part, number(0.0).if_less(part, slope / part, number(LINE_ORDER))]
+    }
+}
+
 /// c and its slope over one step of s.
 fn node(depths: &[f64], approach: f64, s: f64) -> [f64; 2] {
     let count = depths.len() as f64;
@@ -161,6 +183,24 @@ fn monotonic([[from, leaving], [to, arriving]]: [[f64; 2]; 2]) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pulp::Scalar256b;
+
+    #[test]
+    fn several_numbers_have_the_bits_of_each() {
+        let crown = Crown::new(&depths(40));
+        for i in 0..2000 {
+            let first = f64::from(i * i) * 1e-12;
+            let numbers = [first, 1.01 * first, if i == 7 { f64::NAN } else { 1e-3 * first }, 0.0, 0.0, 0.0, 0.0, 0.0];
+            let found = Lanes::part(Scalar256b, &numbers, 0).pair(0, &crown);
+            let mut lanes = [[0.0; 8]; 2];
+            found.iter().zip(&mut lanes).for_each(|(found, lanes)| found.put(lanes, 0));
+            for k in 0..4 {
+                let alone = crown.part_and_order(numbers[k], 0);
+                let bits = |number: f64| if number.is_nan() { 0 } else { number.to_bits() };
+                assert_eq!([0, 1].map(|n| bits(lanes[n][k])), alone.map(bits), "{:e}", numbers[k]);
+            }
+        }
+    }
     use crate::geometry::line_contact::logarithmic_depth;
 
     /// Crown of ISO/TS 16281 on a roller of 7.5 × 9 mm.

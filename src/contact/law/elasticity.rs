@@ -42,7 +42,7 @@ impl Elastic for Line<'_> {
         match self.0 {
             None => [straight, delta.all(LINE_ORDER)],
             Some(crown) => {
-                let [part, order] = delta.pair(0, &|delta, order| crown.part_and_order(delta, order));
+                let [part, order] = delta.pair(0, crown);
                 [straight * part, order]
             }
         }

@@ -63,10 +63,11 @@ pub(super) struct Layer {
     softness: Option<Softness>,
     pub(super) solver: ActiveSet,
     interference: Vec<f64>,
-    slopes: Vec<f64>,
+    pub(super) slopes: Vec<f64>,
     /// Right-hand side on the pressed cells.
     pub(super) unit: Vec<f64>,
-    /// Of the last contact.
+    /// Of the last contact: its window's first column, and its energy.
+    pub(super) first: i32,
     pub(super) energy: Energy,
 }
 
@@ -174,7 +175,7 @@ impl LoveContact {
         }
     }
 
-    /// Equivalent approach at radial path `u` and arc `s` (m).
+    /// Equivalent approach at radial path `u` and arc `s` (m), without second derivatives.
     ///
     /// # Errors
     /// [`ContactError::OutOfRange`] beyond the largest approach, [`ContactError::NotConverged`] when the grid cannot be
@@ -312,7 +313,8 @@ impl Layer {
     fn new(grid: RacewayGrid, largest_approach: f64, softness: Option<Softness>) -> Result<Self, ContactError> {
         let solver = solver_for(&grid, largest_approach, softness)?;
         let [interference, slopes, unit] = [const { Vec::new() }; 3];
-        let mut layer = Self { grid, softness, solver, interference, slopes, unit, energy: Energy::default() };
+        let energy = Energy::default();
+        let mut layer = Self { grid, softness, solver, interference, slopes, first: 0, unit, energy };
         layer.make_room(largest_approach);
         Ok(layer)
     }
@@ -340,7 +342,7 @@ impl Layer {
             let rows = self.grid.rows();
             let border = |row: usize| row + 1 == rows || (row == 0 && !self.grid.mirrored());
             if !self.grid.can_widen() || !self.solver.runs().iter().any(|run| border(run.row)) {
-                self.energy = self.collect(span.first);
+                (self.first, self.energy) = (span.first, self.collect(span.first));
                 return Ok(self.energy);
             }
             // The contact is wider than the grid across the raceway: more rows, and once more.
@@ -350,24 +352,16 @@ impl Layer {
         }
     }
 
-    fn collect(&mut self, first: i32) -> Energy {
-        self.solver.right_hand_side(&mut self.unit);
+    fn collect(&self, first: i32) -> Energy {
         let columns = self.slopes.len();
         let mut energy = Energy::default();
-        for PressedCell { row, column, unknown, pressure: p } in self.solver.cells() {
+        for PressedCell { row, column, pressure: p, .. } in self.solver.cells() {
             let column = (column - first) as usize;
             let share = self.grid.share(row);
             // ∂h/∂s = −∂h/∂t
             energy.w += 0.5 * p * self.interference[row * columns + column];
             energy.u += share * p;
             energy.s += share * p * self.slopes[column];
-            self.unit[unknown] = share;
-        }
-        self.solver.apply_inverse(&mut self.unit);
-        for PressedCell { row, column, unknown, .. } in self.solver.cells() {
-            let by_u = self.grid.share(row) * self.unit[unknown];
-            energy.uu += by_u;
-            energy.us += by_u * self.slopes[(column - first) as usize];
         }
         energy
     }

@@ -12,10 +12,38 @@ use super::love_contact::{Layer, LoveContact};
 use super::raceway_grid::RacewayGrid;
 use super::row_pairs::PressedCell;
 use super::smooth_scale::Energy;
-use crate::contact::equivalent::SecondDerivatives;
+use crate::contact::equivalent::{EquivalentApproach, SecondDerivatives};
 use crate::contact::error::ContactError;
 
 impl LoveContact {
+    /// As [`LoveContact::solve`], with the second derivatives along the path, which cost two triangular solutions more.
+    ///
+    /// # Errors
+    /// As [`LoveContact::solve`].
+    pub(in crate::contact) fn solve_along_path(&mut self, u: f64, s: f64) -> Result<EquivalentApproach, ContactError> {
+        let found = self.solve(u, s)?;
+        Ok(self.along_path(u, s, found))
+    }
+
+    /// As [`LoveContact::continued`], with the second derivatives along the path.
+    pub(in crate::contact) fn continued_along_path(
+        &mut self,
+        u: f64,
+        s: f64,
+    ) -> Result<EquivalentApproach, ContactError> {
+        let found = self.continued(u, s)?;
+        Ok(self.along_path(u, s, found))
+    }
+
+    /// What was found last with its second derivatives along the path, which are 0 where it was continued.
+    fn along_path(&mut self, u: f64, s: f64, found: EquivalentApproach) -> EquivalentApproach {
+        if u <= self.first_touch(s) || found.value < self.smooth.onset() {
+            return found;
+        }
+        let [duu, dus] = self.by_path();
+        EquivalentApproach { duu, dus, ..found }
+    }
+
     /// Second derivatives where [`LoveContact::solve`] has value and slopes, exact for the pressed cells of that
     /// contact: they step where a cell joins or leaves these and at the nodes of the smooth raceway's energy.
     ///
@@ -40,6 +68,18 @@ impl LoveContact {
         Ok(SecondDerivatives { uu: 0.0, us: us + uu * turn, ss: ss - uu * turn * turn })
     }
 
+    /// Second derivatives along the path of the contact that was solved last.
+    fn by_path(&mut self) -> [f64; 2] {
+        let (mut energy, mut second) = (Energy::default(), [0.0; 2]);
+        let part = 1.0 / self.layers.len() as f64;
+        for layer in &mut self.layers {
+            energy.add(&layer.energy, part);
+            let of = layer.by_path();
+            second = [0, 1].map(|i| second[i] + part * of[i]);
+        }
+        self.smooth.by_path(energy, second)
+    }
+
     /// Of the contact that was solved last, at arc `s` (m).
     fn of_last_contact(&mut self, s: f64) -> SecondDerivatives {
         let (mut energy, mut sum) = (Energy::default(), SecondDerivatives::default());
@@ -54,6 +94,18 @@ impl LoveContact {
 }
 
 impl Layer {
+    /// W_uu and W_us of the last contact (see `second_derivatives`).
+    fn by_path(&mut self) -> [f64; 2] {
+        self.apply_inverse(|_, _| 1.0);
+        let mut second = [0.0; 2];
+        for PressedCell { row, column, unknown, .. } in self.solver.cells() {
+            let by_u = self.grid.share(row) * self.unit[unknown];
+            second[0] += by_u;
+            second[1] += by_u * self.slopes[(column - self.first) as usize];
+        }
+        second
+    }
+
     /// Of the energy of the last contact, without the factor π E* × cell area.
     fn second_derivatives(&mut self, s: f64) -> SecondDerivatives {
         let mut of = SecondDerivatives::default();

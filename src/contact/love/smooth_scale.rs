@@ -10,8 +10,6 @@ pub(super) struct Energy {
     pub(super) w: f64,
     pub(in crate::contact) u: f64,
     pub(super) s: f64,
-    pub(super) uu: f64,
-    pub(super) us: f64,
 }
 
 impl Energy {
@@ -20,8 +18,6 @@ impl Energy {
         self.w += part * other.w;
         self.u += part * other.u;
         self.s += part * other.s;
-        self.uu += part * other.uu;
-        self.us += part * other.us;
     }
 }
 
@@ -63,7 +59,7 @@ impl SmoothScale {
         self.nodes.first().map_or(0.0, |node| node[1])
     }
 
-    /// Equivalent approach of an energy.
+    /// Equivalent approach of an energy, without second derivatives.
     pub(super) fn equivalent(&self, e: Energy) -> EquivalentApproach {
         if e.w <= 0.0 {
             return EquivalentApproach::default();
@@ -73,9 +69,17 @@ impl SmoothScale {
             value: scale.value,
             du: scale.slope * (scale.per_w * e.u),
             ds: scale.slope * (scale.per_w * e.s),
-            duu: scale.second_derivative(e.uu, e.u, e.u),
-            dus: scale.second_derivative(e.us, e.u, e.s),
+            ..EquivalentApproach::default()
         }
+    }
+
+    /// ∂²Δ/∂u² and ∂²Δ/∂u∂s of an energy with these second derivatives of its own.
+    pub(super) fn by_path(&self, e: Energy, [uu, us]: [f64; 2]) -> [f64; 2] {
+        if e.w <= 0.0 {
+            return [0.0; 2];
+        }
+        let scale = self.local(e.w);
+        [scale.second_derivative(uu, e.u, e.u), scale.second_derivative(us, e.u, e.s)]
     }
 
     /// Second derivatives of the equivalent approach of an energy, of which `second` are the second derivatives.

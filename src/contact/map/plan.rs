@@ -279,7 +279,7 @@ impl MapPlan {
             return Ok([height, 0.0, 1.0, 0.0]);
         }
         let Reference { arc, path, slope } = patch.reference(at.i);
-        let a = contact.continued(path + height, arc)?;
+        let a = contact.continued_along_path(path + height, arc)?;
         Ok([a.value, a.ds + a.du * slope, a.du, a.dus + a.duu * slope])
     }
 

@@ -11,7 +11,7 @@ use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Space, Stage};
 use crate::numerics::lanes::row::Row;
-use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, handed_on, sum_of};
 use crate::numerics::plane::{Vector, turned};
 
 /// The smooth contacts of elements at one instant.
@@ -171,7 +171,7 @@ impl Model {
             return simd.outlined(Rollers::<RECORD, UNEVEN_OR_OILED> {
                 model: self,
                 line,
-                now: &{ *now },
+                now: &handed_on(now),
                 stage,
                 derivative,
                 elements,

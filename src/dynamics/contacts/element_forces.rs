@@ -9,39 +9,38 @@ use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
 
-/// What the inner contact of an element follows from.
+/// What a contact of an element follows from, on either raceway.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct InnerPlace<T> {
+pub(super) struct Place<T> {
     pub(super) element: usize,
     /// Cell of the raceway and of the element's own defect.
     pub(super) cells: [u32; 2],
-    /// Distance from the outer ring's centre, and path (m).
-    pub(super) rho: T,
+    /// Path (m), and angle of the element about the outer ring's centre (rad).
     pub(super) u: T,
-    /// Rings' offset (m), and rate of q (m/s), along and across e_r.
-    pub(super) offset: [T; 2],
-    pub(super) q_rate: [T; 2],
-    /// Angle of the element about the outer ring's centre (rad).
     pub(super) angle: T,
     pub(super) frames: Frames<T>,
     pub(super) films: Option<OilFilms<T>>,
     pub(super) curved: bool,
 }
 
+/// What the inner contact of an element follows from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InnerPlace<T> {
+    pub(super) at: Place<T>,
+    /// Distance from the outer ring's centre (m).
+    pub(super) rho: T,
+    /// Rings' offset (m), and rate of q (m/s), along and across e_r.
+    pub(super) offset: [T; 2],
+    pub(super) q_rate: [T; 2],
+}
+
 /// What the outer contact of an element follows from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OuterPlace<T> {
-    pub(super) element: usize,
-    pub(super) cells: [u32; 2],
-    /// Path (m) and its rate (m/s).
-    pub(super) u: T,
+    pub(super) at: Place<T>,
+    /// Rate of the path (m/s), and speed of the element about the outer ring's centre (rad/s).
     pub(super) path_rate: T,
-    /// Angle (rad) and speed (rad/s) of the element about the outer ring's centre.
-    pub(super) angle: T,
     pub(super) omega: T,
-    pub(super) frames: Frames<T>,
-    pub(super) films: Option<OilFilms<T>>,
-    pub(super) curved: bool,
 }
 
 /// What a contact exerts on its element.
@@ -107,6 +106,12 @@ impl<T: Scalar> ElementMotion<T> {
         -(self.e_r * inner.x + self.e_t * inner.y)
     }
 
+    /// Where a contact of it is, in these cells, without oil films.
+    pub(super) fn place(&self, cells: [u32; 2]) -> Place<T> {
+        let ElementMotion { element, path, angle, frames, curved, .. } = *self;
+        Place { element, cells, u: path, angle, frames, films: None, curved }
+    }
+
     /// A force on the outer ring (N) of a force of the outer contact on the element.
     #[inline]
     pub(in crate::dynamics) fn on_housing(&self, outer: Vector<T>) -> Vector<T> {
@@ -122,13 +127,17 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> ElementForces<T> {
-        let (place, beside) = (self.inner_place(cells[0], at), self.outer_place(cells[1], at));
+        let films = at.oil_films();
+        let [inside, outside] = cells.map(|cells| Place { films, ..at.place(cells) });
+        let (rho, offset, q_rate) = self.seen_from_inner(at);
+        let place = InnerPlace { at: inside, rho, offset, q_rate };
         let (inner, gap) = self.inner_contact(&self.inner.contact, &place, shortcuts);
-        let outer = self.outer_contact(&self.outer.contact, &beside, shortcuts);
+        let place = OuterPlace { at: outside, path_rate: at.path_rate, omega: at.omega };
+        let outer = self.outer_contact(&self.outer.contact, &place, shortcuts);
         let bearer = |cells: [u32; 2], frame| (cells != [SMOOTH; 2]).then_some(frame);
         ElementForces {
             at: *at,
-            rho: place.rho,
+            rho,
             inner: inner.force.into(),
             outer: outer.force.into(),
             n: gap.n,
@@ -156,35 +165,13 @@ impl Model {
         rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.element_mass))
     }
 
-    pub(super) fn inner_place<T: Scalar>(&self, cells: [u32; 2], at: &ElementMotion<T>) -> InnerPlace<T> {
+    /// Distance of an element from the outer ring's centre (m), and rings' offset (m) and rate of q (m/s) along and
+    /// across e_r.
+    pub(super) fn seen_from_inner<T: Scalar>(&self, at: &ElementMotion<T>) -> (T, [T; 2], [T; 2]) {
         let ElementMotion { e_r, e_t, offset, drift, .. } = at;
         let rho = at.path + T::from(self.outer_centre_radius);
-        InnerPlace {
-            element: at.element,
-            cells,
-            rho,
-            u: at.path,
-            offset: [offset.dot(e_r), offset.dot(e_t)],
-            q_rate: [drift.dot(e_r) + at.path_rate, drift.dot(e_t) + rho * at.omega],
-            angle: at.angle,
-            frames: at.frames,
-            films: at.oil_films(),
-            curved: at.curved,
-        }
-    }
-
-    pub(super) fn outer_place<T: Scalar>(&self, cells: [u32; 2], at: &ElementMotion<T>) -> OuterPlace<T> {
-        OuterPlace {
-            element: at.element,
-            cells,
-            u: at.path,
-            path_rate: at.path_rate,
-            angle: at.angle,
-            omega: at.omega,
-            frames: at.frames,
-            films: at.oil_films(),
-            curved: at.curved,
-        }
+        let q_rate = [drift.dot(e_r) + at.path_rate, drift.dot(e_t) + rho * at.omega];
+        (rho, [offset.dot(e_r), offset.dot(e_t)], q_rate)
     }
 
     /// The inner contact, and the gap it is in.
@@ -195,17 +182,17 @@ impl Model {
         place: &InnerPlace<T>,
         shortcuts: &mut Shortcuts,
     ) -> (OnElement<T>, InnerGap<T>) {
-        let InnerPlace { element, cells, q_rate, frames, films, .. } = place;
+        let InnerPlace { at: Place { element, cells, u, angle, frames, films, curved }, rho, offset, q_rate } = place;
         let clearance = self.clearance_between(films.as_ref());
-        let gap = InnerGap::of(place.rho, place.u, place.offset, clearance, false);
+        let gap = InnerGap::of(*rho, *u, *offset, clearance, false);
         let film = film_on(films.as_ref(), RacewaySide::Inner);
         if *cells == [SMOOTH; 2] {
             let (force, _) = normal_force(contact, film, gap.approach, gap.closing(*q_rate));
             let force = [force * gap.n[0], force * gap.n[1]];
             return (OnElement { force, approach: gap.approach, frame: Frame::Housing }, gap);
         }
-        let (element, cells, direction) = (*element, *cells, place.angle + gap.lead());
-        let (u, distance, curved) = (gap.approach, gap.distance, place.curved);
+        let (element, cells, direction) = (*element, *cells, *angle + gap.lead());
+        let (u, distance, curved) = (gap.approach, gap.distance, *curved);
         let at = Meeting { element, cells, u, direction, distance, curved };
         let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames, shortcuts);
         let rates = [gap.closing(*q_rate), gap.turning(*q_rate)];
@@ -221,17 +208,17 @@ impl Model {
         place: &OuterPlace<T>,
         shortcuts: &mut Shortcuts,
     ) -> OnElement<T> {
-        let OuterPlace { element, cells, u, angle, frames, films, .. } = place;
+        let OuterPlace { at: Place { element, cells, u, angle, frames, films, curved }, path_rate, omega } = place;
         let film = film_on(films.as_ref(), RacewaySide::Outer);
         if *cells == [SMOOTH; 2] {
-            let (force, _) = normal_force(contact, film, *u, place.path_rate);
+            let (force, _) = normal_force(contact, film, *u, *path_rate);
             return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };
         }
         let distance = *u + T::from(self.outer_centre_radius);
-        let (element, cells, curved) = (*element, *cells, place.curved);
+        let (element, cells, curved) = (*element, *cells, *curved);
         let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
         let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames, shortcuts);
-        let rates = [place.path_rate, place.omega];
+        let rates = [*path_rate, *omega];
         let found = near.force(contact, film, rates, frames);
         OnElement { force: found.force, approach: found.approach, frame: near.frame }
     }

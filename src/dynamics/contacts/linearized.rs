@@ -15,7 +15,7 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two, and where a
 //! film's gap ceases to close. At rest all of it is elastic: G = ∂f/∂q is symmetric, and no damping enters.
 
-use super::element_forces::{InnerPlace, OnElement, OuterPlace};
+use super::element_forces::{InnerPlace, OnElement, OuterPlace, Place};
 use super::element_motion::{ElementMotion, ElementVariation};
 use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
@@ -190,24 +190,27 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> (FirstOrder<T, INNER>, [T; 2], T) {
-        let InnerPlace { element, rho, u, offset, q_rate, angle, frames, .. } = self.inner_place(cells, at);
-        let (found, gap) = self.inner_contact::<Dual<T, K>>(
+        let (rho, offset, q_rate) = self.seen_from_inner(at);
+        let turn = |turn: Turn<T>| Turn { angle: seed(turn.angle, 4), speed: seed(turn.speed, 5) };
+        let (inner, gap) = self.inner_contact::<Dual<T, K>>(
             contact,
             &InnerPlace {
-                element,
-                cells,
+                at: Place {
+                    element: at.element,
+                    cells,
+                    u: Dual::constant(at.path),
+                    angle: Dual::constant(at.angle),
+                    frames: Frames(at.frames.0.map(turn)),
+                    films: at.films.map(|films| films.following(seed(at.film_speed, 6))),
+                    curved: at.curved,
+                },
                 rho: Dual::constant(rho),
-                u: Dual::constant(u),
                 offset: [seed(offset[0], 0), seed(offset[1], 1)],
                 q_rate: [seed(q_rate[0], 2), seed(q_rate[1], 3)],
-                angle: Dual::constant(angle),
-                frames: Frames(frames.0.map(|turn| Turn { angle: seed(turn.angle, 4), speed: seed(turn.speed, 5) })),
-                films: at.films.map(|films| films.following(seed(at.film_speed, 6))),
-                curved: at.curved,
             },
             shortcuts,
         );
-        (FirstOrder::of(found), gap.n.map(|n| n.value), gap.distance.value)
+        (FirstOrder::of(inner), gap.n.map(|n| n.value), gap.distance.value)
     }
 
     fn outer_to_first_order<T: Scalar, const K: usize>(
@@ -217,20 +220,22 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> FirstOrder<T, OUTER> {
-        let OuterPlace { element, u, path_rate, angle, omega, frames, .. } = self.outer_place(cells, at);
         let constant = Dual::<T, K>::constant;
+        let turn = |turn: Turn<T>| Turn { angle: constant(turn.angle), speed: constant(turn.speed) };
         FirstOrder::of(self.outer_contact(
             contact,
             &OuterPlace {
-                element,
-                cells,
-                u: seed(u, 0),
-                path_rate: seed(path_rate, 1),
-                angle: seed(angle, 2),
-                omega: seed(omega, 3),
-                frames: Frames(frames.0.map(|turn| Turn { angle: constant(turn.angle), speed: constant(turn.speed) })),
-                films: at.films.map(|films| films.following(seed(at.film_speed, 4))),
-                curved: at.curved,
+                at: Place {
+                    element: at.element,
+                    cells,
+                    u: seed(at.path, 0),
+                    angle: seed(at.angle, 2),
+                    frames: Frames(at.frames.0.map(turn)),
+                    films: at.films.map(|films| films.following(seed(at.film_speed, 4))),
+                    curved: at.curved,
+                },
+                path_rate: seed(at.path_rate, 1),
+                omega: seed(at.omega, 3),
             },
             shortcuts,
         ))

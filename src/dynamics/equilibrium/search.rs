@@ -254,9 +254,9 @@ impl Model {
         // Where a host draws the rings apart so fast that dampers leave nothing of their contacts' forces, the elastic
         // tangent is far too stiff.
         let jacobian = if iteration > DOUBLING {
-            self.ring_jacobian_at(u, given.cells, &now, shortcuts)
+            self.ring_jacobian_at(u, given.cells, &now, false, shortcuts)
         } else {
-            self.ring_jacobian_at(u, given.cells, &now.standing(), shortcuts)
+            self.ring_jacobian_at(u, given.cells, &now.standing(), false, shortcuts)
         };
         // The turning of contact forces makes a lightly held ring's tangent indefinite; its bound ΣQ/|q| takes that
         // out. The second term lets a loose ring move by the longest step, and vanishes with the residual.

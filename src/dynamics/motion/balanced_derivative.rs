@@ -7,12 +7,12 @@
 use crate::dynamics::contacts::{BodyTorque, FirstOrder, Forces, Linearized, Record};
 use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, PathMotion, SMOOTH, Stage, moved};
 use crate::dynamics::quasi_static::{InBalance, SmoothElements};
-use crate::numerics::lanes::{Lanes, Wide};
+use crate::numerics::lanes::{Lanes, Wide, handed_on};
 use crate::numerics::plane::Vector;
 
 impl Model {
-    /// As [`Model::derivative_on`] of a bearing whose elements are in balance. The derivative of a path is its rate,
-    /// that of a radial velocity 0: from them follows where the next stage's search begins, and nothing else.
+    /// As [`Model::derivative`] of a bearing whose elements are in balance. The derivative of a path is its rate, that
+    /// of a radial velocity 0: from them follows where the next stage's search begins, and nothing else.
     #[inline(always)]
     pub(super) fn balanced_derivative<S: Wide, const RECORD: bool>(
         &self,
@@ -22,12 +22,10 @@ impl Model {
         forces: &mut Forces,
     ) {
         let Stage { excitation, cage, .. } = *stage;
-        let angle = excitation.cage_angle_of(cage);
-        forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
         let now = self.kinematics_of(stage);
         derivative[self.layout.radial_velocity..2 * self.layout.radial_velocity].fill(0.0);
-        let mut rings =
-            simd.outlined(SmoothElements::<RECORD> { model: self, now: &{ now }, stage, derivative, forces });
+        let smooth = SmoothElements::<RECORD> { model: self, now: &handed_on(&now), stage, derivative, forces };
+        let mut rings = simd.outlined(smooth);
         if !forces.searched.is_empty() {
             if self.has_frames {
                 forces.frames = excitation.frames_at(cage.tau);

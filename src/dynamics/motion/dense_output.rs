@@ -7,8 +7,9 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
+use crate::dynamics::contacts::{dot, radial};
 use crate::dynamics::parameters::{CageState, Excitation, Layout, LeadPieces, Model};
-use crate::numerics::plane::turned;
+use crate::numerics::lanes::{Lanes, WIDEST, Wide, blocks, blocks_mut, groups};
 use crate::numerics::polynomials::Quintic;
 
 /// What is known at one instant.
@@ -23,8 +24,9 @@ impl Model {
     /// State at `share` of the time `h` (s) from the first to the second instant, where the cage is as `cage` says,
     /// into `out`; `pieces` are those of an uneven cage.
     #[inline(always)]
-    pub(crate) fn dense_output(
+    pub(crate) fn dense_output<S: Wide>(
         &self,
+        simd: S,
         excitation: &Excitation,
         ends: [Known; 2],
         [h, share]: [f64; 2],
@@ -63,21 +65,49 @@ impl Model {
         let housing = ends.map(|end| self.housing_state(excitation, end.cage.tau, end.state).velocity);
         let acceleration = ends.map(|end| self.ring_rates(excitation, end.cage.tau, end.derivative)[1].velocity);
         let velocity = self.housing_state(excitation, cage.tau, out).velocity;
-        let w = layout.radial_velocity;
-        for j in 0..self.element_count {
-            let going = [
-                self.direction_and_speed(j, excitation, &ends[0].cage, pieces),
-                self.direction_and_speed(j, excitation, &ends[1].cage, pieces),
-            ];
-            let second = [0, 1].map(|k| {
-                let (e_r, speed) = going[k];
-                ends[k].derivative[w + j] - e_r.dot(&acceleration[k]) - speed * turned(e_r).dot(&housing[k])
+        let w = layout.radial_velocity / WIDEST;
+        let out = blocks_mut(out);
+        for (k, part) in groups::<S>(self.element_count) {
+            let [start, end] = ends.map(|end| {
+                let (state, derivative) = (blocks(end.state), blocks(end.derivative));
+                [&state[k], &derivative[k], &derivative[w + k]].map(|block| Lanes::part(simd, block, part))
             });
-            let (path, path_rate) = basis.at(value(j), rate(j), second);
-            out[j] = path;
-            let (e_r, _) = self.direction_and_speed(j, excitation, cage, pieces);
-            out[w + j] = path_rate + e_r.dot(&velocity);
+            let mut second = [start[2], end[2]];
+            for (i, second) in second.iter_mut().enumerate() {
+                let (e_r, speed) = self.directions_and_speeds(simd, [k, part], excitation, &ends[i].cage, pieces);
+                let e_t = [-e_r[1], e_r[0]];
+                *second = *second - dot(simd, acceleration[i], e_r) - speed * dot(simd, housing[i], e_t);
+            }
+            let (path, path_rate) = basis.at([start[0], end[0]], [start[1], end[1]], second);
+            let (e_r, _) = self.directions_and_speeds(simd, [k, part], excitation, cage, pieces);
+            path.put(&mut out[k], part);
+            (path_rate + dot(simd, velocity, e_r)).put(&mut out[w + k], part);
         }
+    }
+
+    /// Radial directions of a part of a block of elements, and their speeds about the outer ring's centre (rad/s).
+    #[inline(always)]
+    fn directions_and_speeds<S: Wide>(
+        &self,
+        simd: S,
+        [k, part]: [usize; 2],
+        excitation: &Excitation,
+        cage: &CageState,
+        pieces: &mut LeadPieces,
+    ) -> ([Lanes<S>; 2], Lanes<S>) {
+        if !self.is_uneven() {
+            let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
+            return (radial(simd, cage.direction, &self.elements[k], of), Lanes::splat(simd, cage.speed));
+        }
+        let mut found = [[0.0; WIDEST]; 3];
+        for i in part * S::F64_LANES..(part + 1) * S::F64_LANES {
+            if k * WIDEST + i < self.element_count {
+                let (e_r, speed) = self.direction_and_speed(k * WIDEST + i, excitation, cage, pieces);
+                (found[0][i], found[1][i], found[2][i]) = (e_r.x, e_r.y, speed);
+            }
+        }
+        let [x, y, speed] = found.map(|numbers| Lanes::part(simd, &numbers, part));
+        ([x, y], speed)
     }
 }
 
@@ -88,6 +118,7 @@ mod tests {
     use crate::dynamics::derivatives::jacobian::tests::{lively, moving};
     use crate::dynamics::parameters::Cells;
     use crate::scene::{Damping, Motion};
+    use pulp::Scalar256b;
 
     /// The state after `time`, by many classical Runge–Kutta steps.
     fn integrated(model: &Model, excitation: &Excitation, state: &[f64], cells: &Cells, time: f64) -> Vec<f64> {
@@ -131,7 +162,8 @@ mod tests {
             for share in [0.3, 0.7] {
                 let mut found = vec![0.0; state.len()];
                 let cage = excitation.cage_at(share * h);
-                model.dense_output(&excitation, ends, [h, share], &cage, &mut forces.shortcuts.leads, &mut found);
+                let pieces = &mut forces.shortcuts.leads;
+                model.dense_output(Scalar256b, &excitation, ends, [h, share], &cage, pieces, &mut found);
                 let expected = integrated(&model, &excitation, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

@@ -17,7 +17,7 @@
 
 use crate::dynamics::contacts::{Forces, NonSmoothOuter};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
-use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch};
+use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, dispatch, handed_on};
 use crate::numerics::plane::{Vector, turned, turned_by};
 
 impl Model {
@@ -36,85 +36,26 @@ impl Model {
         dispatch(Derivative { model: self, stage, derivative, forces });
     }
 
-    /// As [`Self::derivative`] inside a kernel, for the cells that `forces` have last seen there. Each contact is kept
-    /// only if `RECORD`, which takes a stage whose positions are not still to be moved on.
+    /// The right-hand side at one stage within kernels, for the cells that `forces` have last seen. Each contact is
+    /// kept only if `RECORD`, which takes a stage whose positions are not still to be moved on.
     #[inline(always)]
     pub(crate) fn derivative_on<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
-        stage: &Stage,
+        stage: Stage,
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
-        // Before anything else, so that nothing of it is in the way of dry contacts in even cages.
-        if self.is_uneven_or_oiled() {
-            return simd.outlined(UnevenOrOiledDerivative::<RECORD>(Derivative {
-                model: self,
-                stage: *stage,
-                derivative,
-                forces,
-            }));
+        let model = self;
+        // Each written out: one that is made elsewhere and moved here is written in parts and read at once.
+        match (self.is_uneven_or_oiled(), stage.ahead.is_some() && !RECORD) {
+            (false, false) => {
+                simd.outlined(Evaluation::<RECORD, false, false> { model, stage, derivative, forces });
+            }
+            (false, true) => simd.outlined(Evaluation::<RECORD, true, false> { model, stage, derivative, forces }),
+            (true, false) => simd.outlined(Evaluation::<RECORD, false, true> { model, stage, derivative, forces }),
+            (true, true) => simd.outlined(Evaluation::<RECORD, true, true> { model, stage, derivative, forces }),
         }
-        self.derivative_in::<S, RECORD, false>(simd, stage, derivative, forces);
-    }
-
-    /// As [`Self::derivative_on`]; if `UNEVEN_OR_OILED`, in an uneven cage or with oil films.
-    #[inline(always)]
-    fn derivative_in<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
-        &self,
-        simd: S,
-        stage: &Stage,
-        derivative: &mut [f64],
-        forces: &mut Forces,
-    ) {
-        let Stage { excitation, cage, state, ahead } = *stage;
-        if UNEVEN_OR_OILED {
-            let angle = excitation.cage_angle_of(cage);
-            forces.cage_lead = self.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
-            if let Some(films) = &self.films {
-                films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
-            }
-        }
-        let (now, tau) = (self.kinematics_of(stage), cage.tau);
-        let [outer, inner] = [forces.non_smooth_outer.is_empty(), forces.non_smooth_inner.is_empty()].map(|none| !none);
-        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
-        if outer || inner {
-            if self.has_frames {
-                forces.frames = excitation.frames_at(tau);
-            }
-            if RECORD {
-                forces.torques = [0.0; 3];
-            }
-            // A copy for each call, so that what is known of the instant can stay in registers: what is written to
-            // memory in parts and read together soon after is read late.
-            if outer {
-                on_housing = simd.outlined(NonSmoothOuter::<RECORD> {
-                    model: self,
-                    now: &{ now },
-                    state,
-                    ahead,
-                    forces: &mut *forces,
-                });
-            }
-            if inner {
-                on_shaft = self.non_smooth_inner_contacts::<RECORD>(&{ now }, state, ahead, forces);
-            }
-        }
-        let [shaft_x, shaft_y, housing_x, housing_y] = self.smooth_contacts::<S, RECORD, UNEVEN_OR_OILED>(
-            simd,
-            &now,
-            stage,
-            derivative,
-            (&forces.elements, forces.films.as_ref()),
-            &mut forces.contacts,
-        );
-        let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
-        let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
-        if RECORD && (outer || inner) {
-            forces.record_non_smooth();
-        }
-        Lanes::of(simd, [shaft_x, shaft_y, housing_x, housing_y]).store(&mut forces.rings, 0);
-        self.body_rates(simd, stage, &now, [shaft_x, shaft_y, housing_x, housing_y], derivative);
     }
 
     /// Torque of the elements on the cage about the outer ring's centre (N m), counter-clockwise.
@@ -146,7 +87,7 @@ impl Model {
         of_paths + forces.torque_on(Frame::Spin)
     }
 }
-/// The whole right-hand side.
+/// The right-hand side from outside of kernels.
 struct Derivative<'a> {
     model: &'a Model,
     stage: Stage<'a>,
@@ -160,25 +101,77 @@ impl Kernel for Derivative<'_> {
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Self { model, stage, derivative, forces } = self;
-        model.derivative_on::<S, true>(simd, &stage, derivative, forces);
+        model.derivative_on::<S, true>(simd, stage, derivative, forces);
     }
 }
 
-/// As [`Derivative`], in an uneven cage or with oil films.
-struct UnevenOrOiledDerivative<'a, const RECORD: bool>(Derivative<'a>);
+/// The right-hand side as it is compiled, each kind without the others' work: if `AHEAD`, with positions that are still
+/// to be moved on; if `UNEVEN_OR_OILED`, in an uneven cage, with oil films, of elements in
+/// balance or in space.
+struct Evaluation<'a, const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> {
+    model: &'a Model,
+    stage: Stage<'a>,
+    derivative: &'a mut [f64],
+    forces: &'a mut Forces,
+}
 
-impl<const RECORD: bool> Kernel for UnevenOrOiledDerivative<'_, RECORD> {
+impl<const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> Kernel
+    for Evaluation<'_, RECORD, AHEAD, UNEVEN_OR_OILED>
+{
     type Output = ();
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
-        let Derivative { model, stage, derivative, forces } = self.0;
-        if let Some(space) = &model.space {
-            return model.spatial_derivative::<S, RECORD>(simd, space, &stage, derivative, forces);
+        let Self { model, stage, derivative, forces } = self;
+        let ahead = if AHEAD { Some(stage.ahead.unwrap_or(0.0)) } else { None };
+        let stage = Stage { ahead, ..stage };
+        let Stage { excitation, cage, state, .. } = stage;
+        if UNEVEN_OR_OILED {
+            if let Some(space) = &model.space {
+                return model.spatial_derivative::<S, RECORD>(simd, space, &stage, derivative, forces);
+            }
+            let angle = excitation.cage_angle_of(cage);
+            forces.cage_lead = model.update_uneven(angle, &mut forces.elements, &mut forces.shortcuts.leads);
+            if model.elements_in_balance() {
+                return model.balanced_derivative::<S, RECORD>(simd, &stage, derivative, forces);
+            }
+            if let Some(films) = &model.films {
+                films.renew(&mut forces.films, excitation.relative_speed.at(cage.tau));
+            }
         }
-        if model.elements_in_balance() {
-            return model.balanced_derivative::<S, RECORD>(simd, &stage, derivative, forces);
+        let now = model.kinematics_of(&stage);
+        let [outer, inner] = [forces.non_smooth_outer.is_empty(), forces.non_smooth_inner.is_empty()].map(|none| !none);
+        let (mut on_shaft, mut on_housing) = (Vector::zeros(), Vector::zeros());
+        if outer || inner {
+            if model.has_frames {
+                forces.frames = excitation.frames_at(cage.tau);
+            }
+            if RECORD {
+                forces.torques = [0.0; 3];
+            }
+            if outer {
+                let now = &handed_on(&now);
+                on_housing = simd.outlined(NonSmoothOuter::<RECORD> { model, now, state, ahead, forces: &mut *forces });
+            }
+            if inner {
+                on_shaft = model.non_smooth_inner_contacts::<RECORD>(&handed_on(&now), state, ahead, forces);
+            }
         }
-        model.derivative_in::<S, RECORD, true>(simd, &stage, derivative, forces);
+        let [shaft_x, shaft_y, housing_x, housing_y] = model.smooth_contacts::<S, RECORD, UNEVEN_OR_OILED>(
+            simd,
+            &now,
+            &stage,
+            derivative,
+            (&forces.elements, forces.films.as_ref()),
+            &mut forces.contacts,
+        );
+        let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
+        let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
+        if RECORD && (outer || inner) {
+            forces.record_non_smooth();
+        }
+        let rings = [shaft_x, shaft_y, housing_x, housing_y];
+        Lanes::of(simd, rings).store(&mut forces.rings, 0);
+        model.body_rates(simd, &stage, &now, rings, derivative);
     }
 }

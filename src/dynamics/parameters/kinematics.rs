@@ -5,8 +5,9 @@
 
 use super::excitation::{Cubic, Excitation, Frames, WholeAngle};
 use super::film::FilmsNow;
+use crate::numerics::lanes::stay_a_branch;
 use crate::numerics::plane::Vector;
-use crate::numerics::sin_cos;
+use crate::numerics::{SMALL_ANGLE, sin_cos, small_turn};
 use std::ops::{Deref, DerefMut};
 
 /// The cage at one instant; one that is uneven as it would turn without that: the *nominal* cage.
@@ -187,9 +188,7 @@ impl Excitation {
         }
         let mut cages = [start; N];
         for ((cage, after), x) in cages.iter_mut().zip(after).zip(turned) {
-            let square = x * x;
-            let sin = x * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
-            let less = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
+            let (sin, less) = small_turn(x);
             let (cos_0, sin_0) = (start.direction.x, start.direction.y);
             cage.tau = from + after;
             cage.direction = Vector::new(cos_0 - (cos_0 * less + sin_0 * sin), sin_0 - (sin_0 * less - cos_0 * sin));
@@ -199,9 +198,6 @@ impl Excitation {
         cages
     }
 }
-
-/// Angle up to which the series of [`Excitation::cage_after`] hold to rounding (rad): 0.03¹⁰/10! is 2e-22.
-const SMALL_ANGLE: f64 = 0.03;
 
 #[inline(always)]
 fn direction(angle: f64) -> Vector {
@@ -224,9 +220,8 @@ pub(in crate::dynamics) fn moved(position: f64, rate: f64, ahead: Option<f64>) -
     match ahead {
         None => position,
         Some(ahead) => {
-            // Keeps this a branch. As a selection between two numbers the position would wait for its rate, and all
-            // that is computed from it as well, where nothing is ahead.
-            std::hint::black_box(());
+            // The position is not to wait for its rate where nothing is ahead.
+            stay_a_branch();
             position + ahead * rate
         }
     }

@@ -7,7 +7,7 @@
 //! An element that nothing touches does not answer.
 
 use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
@@ -90,9 +90,24 @@ impl Model {
         now: &FramedKinematics,
         shortcuts: &mut Shortcuts,
     ) -> RingJacobian {
-        let (still, mut jacobian) = (now.standing(), RingJacobian::zeros());
+        self.ring_jacobian_at(u, cells, &now.standing(), true, shortcuts)
+    }
+
+    /// The same with the dampers' part at the velocities of `now`, each u' being 0; for searches without curvatures
+    /// along defects, not `curved`.
+    pub(in crate::dynamics) fn ring_jacobian_at(
+        &self,
+        u: &[f64],
+        cells: &Cells,
+        now: &FramedKinematics,
+        curved: bool,
+        shortcuts: &mut Shortcuts,
+    ) -> RingJacobian {
+        let mut jacobian = RingJacobian::zeros();
         for (j, &u) in u.iter().enumerate().take(self.element_count) {
-            self.add_balanced(&self.at_rest(j, self.cells_of(cells, j), u, &still, shortcuts), &mut jacobian);
+            let at = self.element_motion(j, PathMotion::at_rest(u), now, shortcuts);
+            let element = self.linearized_at(self.cells_of(cells, j), &ElementMotion { curved, ..at }, shortcuts);
+            self.add_balanced(&element, &mut jacobian);
         }
         jacobian
     }
@@ -107,23 +122,6 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> Linearized {
         self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now, shortcuts), shortcuts)
-    }
-
-    /// As [`ring_jacobian`](Self::ring_jacobian) with the dampers' part at the velocities of `now`, each u' being 0,
-    /// and without curvatures along defects: for searches.
-    pub(in crate::dynamics) fn ring_jacobian_at(
-        &self,
-        u: &[f64],
-        cells: &Cells,
-        now: &FramedKinematics,
-        shortcuts: &mut Shortcuts,
-    ) -> RingJacobian {
-        let mut jacobian = RingJacobian::zeros();
-        for j in 0..self.element_count {
-            let at = self.element_motion(j, PathMotion::at_rest(u[j]), now, shortcuts).searched();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
-        }
-        jacobian
     }
 
     /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the

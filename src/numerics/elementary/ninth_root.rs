@@ -5,6 +5,8 @@
 //! constant, is about that of w, wrong by at most 3.0 %. |r| is then 0.31 at most, 1e-3 after the first round and
 //! rounding after the second. No division and no branch, so that a compiler takes several numbers at a time.
 
+use std::ops::{Add, Mul, Sub};
+
 /// 2^52, whose last bits count whole numbers.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 /// Bits of the first w where those of x are 0, less the last twelve: (10/9 · 1023 − 0.053) · 2^40. The second part, for
@@ -17,26 +19,39 @@ const SERIES: [f64; 4] = [1.0 / 9.0, 5.0 / 81.0, 95.0 / 2187.0, 665.0 / 19683.0]
 /// too small a root.
 #[inline(always)]
 pub fn ninth_root(x: f64) -> f64 {
-    let upper = f64::from_bits((x.to_bits() >> 12) | WHOLE.to_bits()) - WHOLE;
-    let start = (START - upper * (1.0 / 9.0)) + WHOLE;
-    let mut w = f64::from_bits(start.to_bits() << 12);
-    for _ in 0..2 {
-        let (r, _) = residual(x, w);
-        w = w + w * (r * (SERIES[0] + r * (SERIES[1] + r * (SERIES[2] + r * SERIES[3]))));
-    }
-    // x w⁸ has eight times the rounding of w, and r knows it: (1 − r)^(−8/9).
-    let (r, eighth) = residual(x, w);
-    let root = x * eighth;
-    root + root * (r * (8.0 / 9.0))
+    root_from(x, first(x), |number| number)
 }
 
-/// 1 − x w⁹, and w⁸.
+/// The first w.
 #[inline(always)]
-fn residual(x: f64, w: f64) -> (f64, f64) {
-    let square = w * w;
-    let fourth = square * square;
-    let eighth = fourth * fourth;
-    (1.0 - x * eighth * w, eighth)
+pub(in crate::numerics) fn first(x: f64) -> f64 {
+    let upper = f64::from_bits((x.to_bits() >> 12) | WHOLE.to_bits()) - WHOLE;
+    let start = (START - upper * (1.0 / 9.0)) + WHOLE;
+    f64::from_bits(start.to_bits() << 12)
+}
+
+/// The root of one number or of several side by side from the first w; `number` makes a constant of their kind.
+#[inline(always)]
+pub(in crate::numerics) fn root_from<T>(x: T, mut w: T, number: impl Fn(f64) -> T) -> T
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
+{
+    let [a, b, c, d] = SERIES.map(&number);
+    // 1 − x w⁹, and w⁸.
+    let residual = |w: T| {
+        let square = w * w;
+        let fourth = square * square;
+        let eighth = fourth * fourth;
+        (number(1.0) - x * eighth * w, eighth)
+    };
+    for _ in 0..2 {
+        let (r, _) = residual(w);
+        w = w + w * (r * (a + r * (b + r * (c + r * d))));
+    }
+    // x w⁸ has eight times the rounding of w, and r knows it: (1 − r)^(−8/9).
+    let (r, eighth) = residual(w);
+    let root = x * eighth;
+    root + root * (r * number(8.0 / 9.0))
 }
 
 #[cfg(test)]

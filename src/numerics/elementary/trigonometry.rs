@@ -54,6 +54,32 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     (negate(first, quadrant & 2 != 0), negate(second, (quadrant ^ (quadrant >> 1)) & 1 != 0))
 }
 
+/// Ratio up to which [`direction_angle`] is a series: the next term is 0.01¹⁰/11 of the angle.
+const SMALL_RATIO: f64 = 0.01;
+
+/// Angle (rad) of a direction with these parts along x and y, in [−π, π].
+#[inline(always)]
+pub fn direction_angle([x, y]: [f64; 2]) -> f64 {
+    if !(y.abs() < SMALL_RATIO * x) {
+        return libm::atan2(y, x);
+    }
+    let ratio = y / x;
+    let square = ratio * ratio;
+    ratio - ratio * (square * (1.0 / 3.0 - square * (0.2 - square * (1.0 / 7.0 - square * (1.0 / 9.0)))))
+}
+
+/// Angle up to which [`small_turn`] holds to rounding (rad): 0.03¹⁰/10! is 2e-22.
+pub const SMALL_ANGLE: f64 = 0.03;
+
+/// sin x and 1 − cos x of a small angle (rad), by their series.
+#[inline(always)]
+pub fn small_turn(x: f64) -> (f64, f64) {
+    let square = x * x;
+    let sin = x * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0))));
+    let less = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
+    (sin, less)
+}
+
 /// c₀ + c₁x + c₂x² + …, even and odd terms apart so that they are worked out side by side.
 #[inline(always)]
 fn series<const N: usize>(c: &[f64; N], x: f64) -> f64 {
@@ -82,6 +108,22 @@ pub fn wrap(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_angle_of_a_direction_is_that_of_the_library_to_rounding() {
+        for i in -4000..=4000 {
+            // Through 0, and far beyond where the series ends.
+            let ratio = f64::from(i) * f64::from(i).abs() * 1e-9;
+            for x in [1.0, 0.3, 2e-5] {
+                let (found, expected) = (direction_angle([x, ratio * x]), libm::atan2(ratio * x, x));
+                assert!((found - expected).abs() <= f64::EPSILON * expected.abs(), "{ratio}: {found:e} {expected:e}");
+            }
+        }
+        for direction in [[0.0, 0.0], [-1.0, 1e-9], [-1.0, -0.0], [0.0, -2.0], [1.0, -0.0]] {
+            assert_eq!(direction_angle(direction).to_bits(), libm::atan2(direction[1], direction[0]).to_bits());
+        }
+        assert!(direction_angle([f64::NAN, 0.0]).is_nan() && direction_angle([1.0, f64::NAN]).is_nan());
+    }
     use std::f64::consts::PI;
 
     #[test]

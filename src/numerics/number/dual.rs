@@ -3,7 +3,7 @@
 //! They nest: of a dual number of dual numbers the derivatives have derivatives. Where a function has a kink the
 //! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant.
 
-use super::Number;
+use super::{Number, Pair};
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -92,7 +92,7 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 
     #[inline(always)]
-    fn pair(self, order: usize, of: &impl Fn(f64, usize) -> [f64; 2]) -> [Self; 2] {
+    fn pair(self, order: usize, of: &impl Pair) -> [Self; 2] {
         let (values, slopes) = (self.value.pair(order, of), self.value.pair(order + 1, of));
         [self.lifted(values[0], slopes[0]), self.lifted(values[1], slopes[1])]
     }
@@ -213,15 +213,28 @@ impl<N: Number + num_traits::Zero + num_traits::One, const K: usize> num_traits:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::lanes::{Lanes, Wide};
     use crate::numerics::number::Scalar;
     use proptest::prelude::*;
+
+    /// x² and its derivatives but for their factors, which the formula takes times 0.
+    struct Square;
+
+    impl Pair for Square {
+        fn of(&self, x: f64, order: usize) -> [f64; 2] {
+            [x.powi(2 - order as i32); 2]
+        }
+
+        fn of_lanes<S: Wide>(&self, x: Lanes<S>) -> [Lanes<S>; 2] {
+            [x * x; 2]
+        }
+    }
 
     /// Every operation in one formula.
     fn formula<T: Scalar>(x: T, y: T) -> T {
         let root = (x * x + y * y).sqrt();
         let bounded = (x - y).or_zero() + x.at_most(y) * T::Plain::from(0.5);
-        let [chosen, other] =
-            [x.if_less(y, x * y, x / y), (x * y).pair(0, &|x, order| [x.powi(2 - order as i32); 2])[0]];
+        let [chosen, other] = [x.if_less(y, x * y, x / y), (x * y).pair(0, &Square)[0]];
         (root.ninth_root() - -bounded / root) * chosen + T::angle_of([x, y]) + other * T::from(0.0)
     }
 

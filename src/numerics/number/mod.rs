@@ -9,8 +9,8 @@ mod scalar;
 pub use dual::Dual;
 pub use scalar::Scalar;
 
-use super::lanes::{Lanes, WIDEST, Wide};
-use super::ninth_root;
+use super::elementary::ninth_root::{first, ninth_root, root_from};
+use super::lanes::{Lanes, Wide};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number, several of them side by side, or one with derivatives.
@@ -42,8 +42,17 @@ pub trait Number:
     fn or_zero(self) -> Self;
     /// The smaller of two.
     fn at_most(self, limit: Self) -> Self;
-    /// Two functions of each number, worked out together: `of` gives their derivatives of any `order`.
-    fn pair(self, order: usize, of: &impl Fn(f64, usize) -> [f64; 2]) -> [Self; 2];
+    /// Two functions of each number, or their derivatives of any `order`.
+    fn pair(self, order: usize, of: &impl Pair) -> [Self; 2];
+}
+
+/// Two functions of a number that are worked out together.
+pub trait Pair {
+    /// Their derivatives of any `order`.
+    fn of(&self, x: f64, order: usize) -> [f64; 2];
+
+    /// Both of several numbers, with the same bits as of each.
+    fn of_lanes<S: Wide>(&self, x: Lanes<S>) -> [Lanes<S>; 2];
 }
 
 impl Number for f64 {
@@ -85,8 +94,8 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn pair(self, order: usize, of: &impl Fn(f64, usize) -> [f64; 2]) -> [f64; 2] {
-        of(self, order)
+    fn pair(self, order: usize, of: &impl Pair) -> [f64; 2] {
+        of.of(self, order)
     }
 }
 
@@ -110,12 +119,7 @@ impl<S: Wide> Number for Lanes<S> {
 
     #[inline(always)]
     fn ninth_root(self) -> Self {
-        let mut numbers = [0.0; WIDEST];
-        self.put(&mut numbers, 0);
-        for number in numbers.iter_mut().take(S::F64_LANES) {
-            *number = ninth_root(*number);
-        }
-        Self::part(self.0, &numbers, 0)
+        root_from(self, self.each(first), |number| Lanes::splat(self.0, number))
     }
 
     #[inline(always)]
@@ -134,13 +138,9 @@ impl<S: Wide> Number for Lanes<S> {
     }
 
     #[inline(always)]
-    fn pair(self, order: usize, of: &impl Fn(f64, usize) -> [f64; 2]) -> [Self; 2] {
-        let (mut first, mut second) = ([0.0; WIDEST], [0.0; WIDEST]);
-        self.put(&mut first, 0);
-        // A loop over numbers side by side, which the compiler takes together where the function has no branch.
-        for (first, second) in first.iter_mut().zip(&mut second).take(S::F64_LANES) {
-            [*first, *second] = of(*first, order);
-        }
-        [Self::part(self.0, &first, 0), Self::part(self.0, &second, 0)]
+    fn pair(self, order: usize, of: &impl Pair) -> [Self; 2] {
+        // Registers carry no derivatives, so that nobody asks for those.
+        debug_assert_eq!(order, 0);
+        of.of_lanes(self)
     }
 }

@@ -2,6 +2,7 @@
 //! with.
 
 use super::{Dual, Number};
+use crate::numerics::direction_angle;
 use num_traits::{One, Zero};
 use std::ops::{AddAssign, MulAssign, SubAssign};
 
@@ -71,7 +72,7 @@ impl Scalar for f64 {
 
     #[inline(always)]
     fn angle_of([x, y]: [f64; 2]) -> f64 {
-        libm::atan2(y, x)
+        direction_angle([x, y])
     }
 
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! Hermite's polynomial of degree five: value, rate and second derivative at both ends of a step; error of order h⁶.
 
+use crate::numerics::number::Number;
+
 /// The polynomial at a share of a step of this length.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Quintic {
@@ -16,12 +18,14 @@ impl Quintic {
 
     /// Value and rate from the values, rates and second derivatives at both ends.
     #[inline(always)]
-    pub(crate) fn at(&self, values: [f64; 2], rates: [f64; 2], seconds: [f64; 2]) -> (f64, f64) {
-        let s = self.share;
+    pub(crate) fn at<T: Number<Plain = T>>(&self, values: [T; 2], rates: [T; 2], seconds: [T; 2]) -> (T, T) {
+        let number = |number: f64| values[0].plain(number);
+        let s = number(self.share);
         let [x, rate, second, third, fourth, fifth] = self.coefficients(values, rates, seconds);
-        let value = x + s * (rate + s * (0.5 * second + s * (third + s * (fourth + s * fifth))));
-        let slope = rate + s * (second + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)));
-        (value, slope / self.h)
+        let value = x + s * (rate + s * (number(0.5) * second + s * (third + s * (fourth + s * fifth))));
+        let to_fifth = number(3.0) * third + s * (number(4.0) * fourth + s * number(5.0) * fifth);
+        let slope = rate + s * (second + s * to_fifth);
+        (value, slope / number(self.h))
     }
 
     /// Second derivative over the whole step, as a cubic in the share of it.
@@ -32,20 +36,21 @@ impl Quintic {
 
     /// Coefficients of the polynomial in the share of the step, that of the square doubled.
     #[inline(always)]
-    fn coefficients(&self, [x, end]: [f64; 2], rates: [f64; 2], seconds: [f64; 2]) -> [f64; 6] {
-        let h = self.h;
-        let [rate, end_rate] = rates.map(|rate| h * rate);
-        let [second, end_second] = seconds.map(|second| h * h * second);
-        let difference = end - x - rate - 0.5 * second;
+    fn coefficients<T: Number<Plain = T>>(&self, [x, end]: [T; 2], rates: [T; 2], seconds: [T; 2]) -> [T; 6] {
+        let number = |number: f64| x.plain(number);
+        let (h, half) = (number(self.h), number(0.5));
+        let [rate, end_rate] = [h * rates[0], h * rates[1]];
+        let [second, end_second] = [h * h * seconds[0], h * h * seconds[1]];
+        let difference = end - x - rate - half * second;
         let turn = end_rate - rate - second;
         let change = end_second - second;
         [
             x,
             rate,
             second,
-            10.0 * difference - 4.0 * turn + 0.5 * change,
-            -15.0 * difference + 7.0 * turn - change,
-            6.0 * difference - 3.0 * turn + 0.5 * change,
+            number(10.0) * difference - number(4.0) * turn + half * change,
+            number(-15.0) * difference + number(7.0) * turn - change,
+            number(6.0) * difference - number(3.0) * turn + half * change,
         ]
     }
 }

@@ -94,7 +94,7 @@ fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span:
     *largest_error = rodas::largest_error(buffers, weights);
     let StageBuffers { end, last, .. } = buffers;
     let stage = Stage { excitation, cage: &cages[rodas::NODES.len() - 1], state: end, ahead: None };
-    model.derivative_on::<S, true>(simd, &stage, last, forces);
+    model.derivative_on::<S, true>(simd, stage, last, forces);
 }
 
 /// The state at a share of the step tried last, its derivative, and each contact there.
@@ -122,15 +122,12 @@ impl Kernel for Probe<'_> {
                 let start =
                     Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
                 let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
-                model.dense_output(excitation, [start, end], [h, share], &cage, &mut forces.shortcuts.leads, dense);
+                let pieces = &mut forces.shortcuts.leads;
+                model.dense_output(simd, excitation, [start, end], [h, share], &cage, pieces, dense);
             }
         }
-        model.derivative_on::<S, true>(
-            simd,
-            &Stage { excitation, cage: &cage, state: dense, ahead: None },
-            scratch,
-            forces,
-        );
+        let stage = Stage { excitation, cage: &cage, state: dense, ahead: None };
+        model.derivative_on::<S, true>(simd, stage, scratch, forces);
         forces.settle(model, dense);
     }
 }
@@ -149,7 +146,7 @@ impl rodas::System for System<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], out: &mut [f64]) {
         let stage = Stage { excitation: self.excitation, cage: &self.cages[stage], state, ahead: None };
-        self.model.derivative_on::<S, false>(simd, &stage, out, self.forces);
+        self.model.derivative_on::<S, false>(simd, stage, out, self.forces);
     }
 
     fn solve(&self, b: &mut [f64]) {
@@ -174,38 +171,16 @@ impl RightHandSide for Stages<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
         let (model, forces) = (self.model, &mut *self.forces);
-        let at = Stage { excitation: self.excitation, cage: &self.cages[stage.min(LAST - 1)], state, ahead };
-        match ahead {
-            None if stage == LAST => return simd.outlined(Evaluation::<true, false> { model, at, out, forces }),
-            None => simd.outlined(Evaluation::<false, false> { model, at, out, forces: &mut *forces }),
-            Some(_) => simd.outlined(Evaluation::<false, true> { model, at, out, forces: &mut *forces }),
+        let (excitation, cage) = (self.excitation, &self.cages[stage.min(LAST - 1)]);
+        let at = Stage { excitation, cage, state, ahead };
+        if stage == LAST {
+            return model.derivative_on::<S, true>(simd, at, out, forces);
         }
+        model.derivative_on::<S, false>(simd, at, out, forces);
         // In the plane the rest is 0.
         let count = if model.space.is_some() { self.sum.len() } else { 4 };
         for (sum, force) in self.sum.iter_mut().zip(forces.rings).take(count) {
             *sum += self.weights[stage] * force;
         }
-    }
-}
-
-/// One evaluation of the right-hand side, each contact kept if `RECORD`; if `AHEAD`, with positions that are still to
-/// be moved on by a time (s). Each is a function of its own: a step that has all of its stages written out is longer
-/// than what a processor keeps decoded.
-struct Evaluation<'a, const RECORD: bool, const AHEAD: bool> {
-    model: &'a Model,
-    at: Stage<'a>,
-    out: &'a mut [f64],
-    forces: &'a mut Forces,
-}
-
-impl<const RECORD: bool, const AHEAD: bool> Kernel for Evaluation<'_, RECORD, AHEAD> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Wide>(self, simd: S) {
-        let Self { model, at, out, forces } = self;
-        // Known when this is compiled, so that each kind is a function without the other's work.
-        let ahead = if AHEAD { Some(at.ahead.unwrap_or(0.0)) } else { None };
-        model.derivative_on::<S, RECORD>(simd, &Stage { ahead, ..at }, out, forces);
     }
 }

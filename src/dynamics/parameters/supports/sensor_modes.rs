@@ -12,7 +12,8 @@
 //! acceleration that its dense output has: a cubic, for which the response is a power series with no error but
 //! rounding.
 
-use crate::numerics::lanes::QUAD;
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, dispatch};
+use crate::numerics::number::Number;
 use crate::numerics::polynomials::Quintic;
 use crate::scene::{MOST_SENSORS, Scene};
 use std::f64::consts::TAU;
@@ -85,12 +86,18 @@ impl SensorModes {
 
     /// Moves their state from the start of a step on to a `share` of it.
     pub(crate) fn advance(&self, ends: StepEnds, share: f64, state: &mut [f64]) {
-        let mut states = state.as_chunks_mut::<2>().0.iter_mut();
+        // A sample at the very start of a step: the series gives z' as a quotient of what is 0 then.
+        if share == 0.0 {
+            return;
+        }
+        let mut states = state.as_chunks_mut::<2>().0;
         for of_sensor in self.modes.chunk_by(|one, next| one.sensor == next.sensor) {
             let acceleration = acceleration(ends, self.index + of_sensor[0].sensor * QUAD);
-            for (mode, z) in of_sensor.iter().zip(&mut states) {
-                mode.advance(&acceleration, ends.length, share, z);
+            let (of_these, rest) = states.split_at_mut(of_sensor.len());
+            for (modes, states) in of_sensor.chunks(WIDEST).zip(of_these.chunks_mut(WIDEST)) {
+                dispatch(SideBySide { modes, acceleration, length: ends.length, share, states });
             }
+            states = rest;
         }
     }
 
@@ -137,39 +144,78 @@ impl Mode {
     fn shown(&self, [second, rate]: [f64; 2]) -> f64 {
         self.gain * second + self.quadrature_gain * self.frequency * rate
     }
+}
 
-    /// Moves z and z' on to a `share` of a step of `length` (s), in pieces of a radian at most.
-    fn advance(&self, acceleration: &Cubic, length: f64, share: f64, z: &mut [f64; 2]) {
-        // A sample at the very start of a step: the series gives z' as a quotient of what is 0 then.
-        if share == 0.0 {
-            return;
+/// Up to eight modes of one sensor, moved on to a share of a step.
+struct SideBySide<'a> {
+    modes: &'a [Mode],
+    acceleration: Cubic,
+    /// Of the step (s).
+    length: f64,
+    share: f64,
+    states: &'a mut [[f64; 2]],
+}
+
+impl Kernel for SideBySide<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, simd: S) {
+        let Self { modes, acceleration, length, share, states } = self;
+        let mut turns = [[0.0; WIDEST]; 2];
+        let (mut pieces, mut state) = ([1.0; WIDEST], [[0.0; WIDEST]; 2]);
+        for (i, (mode, z)) in modes.iter().zip(&*states).enumerate() {
+            [turns[0][i], turns[1][i]] = [mode.frequency, mode.damping_ratio];
+            [state[0][i], state[1][i]] = *z;
+            // Pieces of a radian at most.
+            pieces[i] = (mode.frequency * length * share).ceil().max(1.0);
         }
-        let pieces = (self.frequency * length * share).ceil().max(1.0);
-        let by = share / pieces;
-        for piece in 0..pieces as usize {
-            self.follow(&part(acceleration, piece as f64 * by, by), length * by, z);
+        for part in 0..modes.len().div_ceil(S::F64_LANES) {
+            let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
+            let (number, count) = (|number: f64| Lanes::splat(simd, number), of(&pieces));
+            let by = number(share) / count;
+            let mut z = state.each_ref().map(of);
+            let own = &pieces[part * S::F64_LANES..(part + 1) * S::F64_LANES];
+            let most = own.iter().fold(0.0f64, |most, &pieces| most.max(pieces));
+            for piece in 0..most as usize {
+                let piece = number(piece as f64);
+                let acceleration = section(acceleration.map(number), piece * by, by);
+                let moved = follow(turns.each_ref().map(of), acceleration, number(length) * by, z);
+                // A mode whose pieces are done waits for the others of its register.
+                z = [0, 1].map(|k| piece.if_less(count, moved[k], z[k]));
+            }
+            z[0].put(&mut state[0], part);
+            z[1].put(&mut state[1], part);
+        }
+        for (i, z) in states.iter_mut().enumerate() {
+            *z = [state[0][i], state[1][i]];
         }
     }
+}
 
-    /// Moves z and z' on by `h` (s) under an acceleration that is a cubic in the share of that time.
-    fn follow(&self, acceleration: &Cubic, h: f64, z: &mut [f64; 2]) {
-        let turn = self.frequency * h;
-        let (damping, spring) = (2.0 * self.damping_ratio * turn, turn * turn);
-        let mut terms = [0.0; TERMS];
-        [terms[0], terms[1]] = [z[0], h * z[1]];
-        for k in 0..TERMS - 2 {
-            let from = h * h * acceleration.get(k).copied().unwrap_or(0.0);
-            let (next, after) = ((k + 1) as f64, (k + 2) as f64);
-            terms[k + 2] = -(damping * next * terms[k + 1] + spring * terms[k] + from) / (next * after);
-        }
-        // From the last term on: each is in as many of the sums that make up the slope as its power says.
-        let (mut sum, mut slope) = (0.0, 0.0);
-        for term in terms[1..].iter().rev() {
-            sum += term;
-            slope += sum;
-        }
-        *z = [terms[0] + sum, slope / h];
+/// z and z' of modes of these frequencies (rad/s) and damping ratios moved on by `h` (s), under an acceleration that is
+/// a cubic in the share of that time.
+#[inline(always)]
+fn follow<T: Number<Plain = T>>([frequency, damping_ratio]: [T; 2], acceleration: [T; 4], h: T, z: [T; 2]) -> [T; 2] {
+    let number = |number: f64| h.plain(number);
+    let turn = frequency * h;
+    let (damping, spring) = (number(2.0) * damping_ratio * turn, turn * turn);
+    let zero = number(0.0);
+    let mut terms = [zero; TERMS];
+    [terms[0], terms[1]] = [z[0], h * z[1]];
+    for k in 0..TERMS - 2 {
+        let from = if k < acceleration.len() { h * h * acceleration[k] } else { zero };
+        let (next, after) = ((k + 1) as f64, (k + 2) as f64);
+        let sum = damping * number(next) * terms[k + 1] + spring * terms[k] + from;
+        terms[k + 2] = -sum / number(next * after);
     }
+    // From the last term on: each is in as many of the sums that make up the slope as its power says.
+    let (mut sum, mut slope) = (zero, zero);
+    for k in (1..TERMS).rev() {
+        sum = sum + terms[k];
+        slope = slope + sum;
+    }
+    [terms[0] + sum, slope / h]
 }
 
 /// Acceleration over a step of the body whose displacement is at this index of a state.
@@ -184,11 +230,13 @@ fn acceleration(ends: StepEnds, index: usize) -> Cubic {
 }
 
 /// The cubic over a part of its step that begins at `from` and is `by` long, both as shares.
-fn part([a, b, c, d]: &Cubic, from: f64, by: f64) -> Cubic {
+#[inline(always)]
+fn section<T: Number<Plain = T>>([a, b, c, d]: [T; 4], from: T, by: T) -> [T; 4] {
+    let (two, three) = (from.plain(2.0), from.plain(3.0));
     [
         a + from * (b + from * (c + from * d)),
-        by * (b + from * (2.0 * c + from * 3.0 * d)),
-        by * by * (c + 3.0 * from * d),
+        by * (b + from * (two * c + from * three * d)),
+        by * by * (c + three * from * d),
         by * by * by * d,
     ]
 }
@@ -202,6 +250,24 @@ mod tests {
 
     fn mode(damping_ratio: f64) -> Mode {
         Mode { sensor: 0, frequency: TAU * 3e3, damping_ratio, gain: 1.0, quadrature_gain: 0.0 }
+    }
+
+    impl Mode {
+        /// Alone, and among modes that take more pieces and fewer: with the same bits.
+        fn advance(&self, acceleration: &Cubic, length: f64, share: f64, z: &mut [f64; 2]) {
+            let start = *z;
+            let among = |frequencies: &[f64]| {
+                let other = |&by: &f64| Mode { frequency: by * self.frequency, ..*self };
+                let modes: Vec<Mode> = frequencies.iter().map(other).collect();
+                let mut states = vec![start; modes.len()];
+                let (acceleration, states_of) = (*acceleration, &mut states[..]);
+                dispatch(SideBySide { modes: &modes, acceleration, length, share, states: states_of });
+                states
+            };
+            *z = among(&[1.0])[0];
+            assert_eq!(among(&[0.1, 3.0, 1.0, 7.0, 1.0, 0.0])[2], *z);
+            assert_eq!(among(&[0.1, 3.0, 2.0, 7.0, 1.0, 0.0])[4], *z);
+        }
     }
 
     #[test]
@@ -254,7 +320,7 @@ mod tests {
         let cubic = |[a, b, c, d]: Cubic, s: f64| a + s * (b + s * (c + s * d));
         let whole = [1.0, -3.0, 2.0, 5.0];
         for s in [0.0, 0.3, 1.0] {
-            let found = cubic(part(&whole, 0.25, 0.5), s);
+            let found = cubic(section(whole, 0.25, 0.5), s);
             assert!((found - cubic(whole, 0.25 + 0.5 * s)).abs() < ROUNDING, "{s}");
         }
     }
