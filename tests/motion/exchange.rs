@@ -223,7 +223,8 @@ fn worst_of_jacobian(scene: Scene, before: f64, skip: impl Fn(&str) -> bool) -> 
 #[test]
 fn the_jacobian_of_outputs_and_state_derivatives_is_that_of_differences() {
     let left_out = |name: &str| name.contains("mean_force");
-    // In the spall, with sensor and both rings free; then with an inner defect, whose frames are states too; then hosted.
+    // In the spall, with sensor and both rings free; then with an inner defect, whose frames are states too; then
+    // hosted.
     for (name, before) in [("er16k-tb1", 7e-3), ("er16k-inner", 2e-3), ("er16k-tb1-hosted-shaft", 7e-3)] {
         let worst = worst_of_jacobian(shipped(name), before, left_out);
         // Central differences over a share of an approach: its square, and rounding of forces over small changes.

@@ -1,7 +1,7 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
 use super::excitation;
-use super::state::{Ended, FirstInputs, History, State};
+use super::state::{Ahead, Ended, FirstInputs, History, State};
 use crate::contact::map::ContactMaps;
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
@@ -46,15 +46,6 @@ pub struct Simulation {
     pub(in crate::simulation) state: State,
     pub(super) up_to_date: UpToDate,
     pub(super) ahead: Ahead,
-}
-
-/// A look at the next step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Ahead {
-    /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
-    pub(super) force: Option<[f64; 4]>,
-    /// Where the state is kept meanwhile.
-    pub(super) state: Option<Box<State>>,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
@@ -309,13 +300,7 @@ impl Simulation {
             variable.causality == Causality::Parameter
                 && (present.reals[i].to_bits() != state.reals[i].to_bits() || present.integers[i] != state.integers[i])
         });
-        // What a step began with the first time is no part of the state before that time.
-        if self.state.first.are_of(state.time) {
-            self.state.copy_all_but_first(state);
-        } else {
-            self.state.copy_from(state);
-        }
-        self.ahead.force = None;
+        self.state.go_back_to(state, &mut self.ahead);
         if let Some(recorder) = &mut self.recorder {
             recorder.rewind(&self.state.progress.due);
         }
@@ -372,9 +357,8 @@ impl Simulation {
         self.state.frames = [shaft, housing, 0.0].map(WholeAngle::new);
         let excitation = self.excitation(false);
         self.check_films(&excitation, 0.0)?;
-        let count = self.inputs.count;
-        (self.state.history, self.state.first) = (History::none(count), FirstInputs::none(count));
-        self.ahead.force = None;
+        self.state.forget_steps();
+        self.ahead.begin(&self.state, self.inputs.repeated.is_some());
         let progress = &mut self.state.progress;
         *progress = new_progress(&self.model, &self.recorder);
         progress.cells = self.model.equilibrium_with_cells(&excitation, &mut progress.state)?;

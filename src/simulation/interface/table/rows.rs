@@ -1,11 +1,12 @@
 //! The rows of the variable table for a scene: the one place where a variable is named.
 //!
-//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index is its
+//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index
+//! is its
 //! FMI value reference, which stays as rows are added.
 
 use crate::scene::{Motion, Scene};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};
-use crate::simulation::interface::table::builder::{Builder, RINGS};
+use crate::simulation::interface::table::builder::{AXES, Builder, RINGS};
 use crate::simulation::interface::table::variables::{Causality, Kind, Unit, Variability, Variable};
 
 /// The table of a scene, with what each variable stands for.
@@ -18,8 +19,6 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.coupling();
     builder.into_rows()
 }
-
-pub(super) const AXES: [&str; 2] = ["x", "y"];
 
 /// Sizes of an input: from -`largest` to `largest`, in its unit.
 #[derive(Debug, Clone, Copy)]
@@ -306,16 +305,6 @@ impl Builder<'_> {
         let derivatives = quantity.as_input().map_or("no derivative acts", |input| input.derivatives().1);
         let text = [text, "; ", derivatives].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
-    }
-
-    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
-        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
-        let variability = match quantity {
-            // A mean belongs to a communication step.
-            Q::MeanForce(..) | Q::NextMeanForce(..) => Variability::Discrete,
-            _ => Variability::Continuous,
-        };
-        self.push(name, text, kind, (Causality::Output, variability), quantity);
     }
 
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
