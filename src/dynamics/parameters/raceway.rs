@@ -165,8 +165,7 @@ impl Defects {
     }
 
     /// Angle (rad) by which a direction in the body's frame is within `cell`, to the nearer of its ends; negative
-    /// outside
-    /// it. Infinite without a defect.
+    /// outside it. Infinite without a defect.
     pub fn within(&self, cell: u32, direction: f64) -> f64 {
         let holding = |defect: &&SurfaceDefect| cell == SMOOTH || defect.holds(cell);
         let defects = self.defects.iter().filter(holding);

@@ -16,8 +16,7 @@ impl Simulation {
     }
 
     /// The event indicators: approaches of inner contacts and of outer ones (m); then the angles (rad) that contacts
-    /// have
-    /// left to the nearer end of their cell.
+    /// have left to the nearer end of their cell.
     ///
     /// # Errors
     /// Before `initialize`: an equilibrium that does not exist.
@@ -61,8 +60,7 @@ impl Simulation {
     }
 
     /// Shows of each contact that defects concern the angle by which it is within its cell, the cell that it is over,
-    /// and
-    /// which it is.
+    /// and which it is.
     fn each_cell(&mut self, mut see: impl FnMut(f64, u32, crate::simulation::integration::landing::Contact)) {
         let excitation = self.excitation(false);
         let Self { model, forces, state, .. } = self;

@@ -2,12 +2,10 @@
 //!
 //! What a coupling loses in a step h is counted in ωh, ω being the fastest mode of the rings against each other on the
 //! bearing: ω² = λ (1/m_i + 1/m_o), with the largest eigenvalue λ of the tangent stiffness, a ring that stands having
-//! no
-//! 1/m. A wiring whose error is of second order (`next_mean_force` held, `mean_force` in sequence, `force` with its
+//! no 1/m. A wiring whose error is of second order (`next_mean_force` held, `mean_force` in sequence, `force` with its
 //! derivative, repeated steps that are given their end) is about 1 % off after 20 ms at ωh = [`SECOND_ORDER`], measured
 //! with a rotor without a damper on a casing that stands, the worst case; dampers and a soft casing let it be three
-//! times
-//! that. `force` held is of first order: for 1 % it wants a step a hundred times shorter.
+//! times that. `force` held is of first order: for 1 % it wants a step a hundred times shorter.
 //!
 //! The FMU does not know the mass of a ring that the host moves: it takes that of published models, 3.26 kg for a shaft
 //! and

@@ -16,8 +16,7 @@ macro_rules! functions {
         ///
         /// # Safety
         /// `instance` may be any value; pointers are null or point to what their names say, arrays to as many elements
-        /// as
-        /// said.
+        /// as said.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(instance: Handle, $($argument: $type),*) -> Status {
             const ANY: Function = Function { name: stringify!($name), version: Version::Fmi3, allowed: ALWAYS };

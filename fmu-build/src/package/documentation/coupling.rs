@@ -25,8 +25,7 @@ pub(super) fn of(model: &Model) -> Option<Value> {
 }
 
 /// `solver.suggested_step` at the position of the shaft, or of the housing where only that is the host's, that carries
-/// the
-/// load.
+/// the load.
 fn suggested_step(model: &Model) -> Option<f64> {
     let mut simulation = model.simulation.clone();
     let (name, towards) = match (model.scene.shaft.motion, model.scene.housing.motion) {

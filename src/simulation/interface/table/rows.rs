@@ -1,8 +1,7 @@
 //! The rows of the variable table for a scene: the one place where a variable is named.
 //!
 //! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index
-//! is its
-//! FMI value reference, which stays as rows are added.
+//! is its FMI value reference, which stays as rows are added.
 
 use crate::scene::{Motion, Scene};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};

@@ -65,15 +65,12 @@ impl Simulation {
     /// use brinell::scene::{Bearing, Scene};
     /// use brinell::simulation::Simulation;
     ///
-    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
-    /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
-    /// let mut simulation = Simulation::new(scene, None)?;
-    /// simulation.initialize(0.0)?;
-    /// // What the load does to the ring's acceleration at once: 1/m.
-    /// let (load, acceleration) = (simulation.reference("shaft.load.y")?, simulation.reference("shaft.ay")?);
-    /// let mut change = [0.0];
-    /// simulation.directional_derivative(&[acceleration], &[load], &[1.0], &mut change)?;
-    /// assert!((change[0] * simulation.get("shaft.mass")? - 1.0).abs() < 1e-12);
+    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3); let scene =
+    /// Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?; let mut simulation =
+    /// Simulation::new(scene, None)?; simulation.initialize(0.0)?; // What the load does to the ring's acceleration at
+    /// once: 1/m. let (load, acceleration) = (simulation.reference("shaft.load.y")?,
+    /// simulation.reference("shaft.ay")?); let mut change = [0.0]; simulation.directional_derivative(&[acceleration],
+    /// &[load], &[1.0], &mut change)?; assert!((change[0] * simulation.get("shaft.mass")? - 1.0).abs() < 1e-12);
     /// # Ok::<(), brinell::Error>(())
     /// ```
     ///
