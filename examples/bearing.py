@@ -104,14 +104,18 @@ def program():
     return [installed] if installed else ["cargo", "fmu"]
 
 
-def build(scenes, folder):
-    """Builds the FMUs of scene files. Gives their paths: each bears its scene's name, whatever the file's is."""
+def build(scenes, folder, *options):
+    """Builds the FMUs of scene files. Gives their paths: each bears its scene's name, whatever the file's is.
+
+    `options` are words of `brinell build`, as "--fmi", "3".
+    """
     command = [
         *program(),
         "build",
         *(str(Path(scene).resolve()) for scene in scenes),
         "-o",
         str(Path(folder).resolve()),
+        *options,
     ]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     names = [tomllib.loads(Path(scene).read_text(encoding="utf-8"))["name"] for scene in scenes]
@@ -166,6 +170,7 @@ class Instance:
         # Without this an error would say no more than its status.
         self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
         self.time = 0.0
+        self.state = fmi2FMUstate()
 
     def enter(self, start=None):
         """Sets parameters and start values and goes into initialization mode."""
@@ -198,6 +203,16 @@ class Instance:
         self.call(self.slave.doStep, self.time, length)
         self.time += length
 
+    def save(self):
+        """Takes the FMU's state, over the one taken before."""
+        self.call(self.slave.fmi2GetFMUstate, self.slave.component, byref(self.state))
+        self.saved_time = self.time
+
+    def restore(self):
+        """Goes back to the state taken last."""
+        self.call(self.slave.fmi2SetFMUstate, self.slave.component, self.state)
+        self.time = self.saved_time
+
     def close(self):
         self.slave.freeInstance()
 
@@ -219,7 +234,6 @@ class Bearing(Instance):
         self.motion = Numbers(self, [f"shaft.{q}" for q in ("x", "y", "vx", "vy", "ax", "ay")])
         self.tangent = Numbers(self, [f"shaft.stiffness.{a}{b}" for a in "xy" for b in "xy"])
         self.forces = Numbers(self, [f"shaft.{q}" for q in ("mean_force.x", "mean_force.y", "force.x", "force.y")])
-        self.state = fmi2FMUstate()
         self.enter(start)
 
     def force_at(self, position):
@@ -280,13 +294,3 @@ class Bearing(Instance):
         """The tangent stiffness matrix now [N/m]."""
         self.call(self.slave.fmi2GetReal, *self.tangent.arguments)
         return self.tangent.array.reshape(2, 2).copy()
-
-    def save(self):
-        """Takes the FMU's state, over the one taken before."""
-        self.call(self.slave.fmi2GetFMUstate, self.slave.component, byref(self.state))
-        self.saved_time = self.time
-
-    def restore(self):
-        """Goes back to the state taken last."""
-        self.call(self.slave.fmi2SetFMUstate, self.slave.component, self.state)
-        self.time = self.saved_time

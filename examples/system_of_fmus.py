@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A bearing and an elastic rotor, two FMUs wired in an SSP file: error over algorithm, wiring and step, as Markdown.
+"""A bearing and an elastic rotor, two FMUs wired in an SSP file: error over casing, algorithm, wiring and step, as Markdown.
 
     python examples/system_of_fmus.py [--build] [--short] [-o target/examples]
 
@@ -8,12 +8,16 @@ with the C compiler that CC names, else `cc`. It rests in the bearing under half
 half is added. The error is that of its position, rms over rms of its way, against one FMU that holds mass and spring:
 the scene's own `shaft.mass_kg` and `shaft.stiffness_n_m`, no coupling at all.
 
-`--build` writes the systems only, bearing and rotor in one `.ssp` each (System Structure and Parameterization 1.0):
-`healthy-force.ssp`, `healthy-mean_force.ssp`, `spalled-force.ssp`, `spalled-mean_force.ssp`, by what the rotor gets.
+Its casing is the scene's, `free` on springs with a damper; or the same without a damper; or `fixed`: it stands.
+
+`--build` writes the systems of the free casing only, bearing and rotor in one `.ssp` each (System Structure and
+Parameterization 1.0), healthy and spalled, by what the rotor gets: `healthy-force.ssp`, `healthy-mean_force.ssp`,
+`healthy-next_mean_force.ssp`, and `spalled-…`.
 
 Masters that read them:
   ours      parallel (Jacobi) and sequential (Gauss-Seidel, in the order of the file), inputs held, continued with the
-            derivatives that the other FMU gives, or interpolated; nothing but the standard's functions
+            derivatives that the other FMU gives, or interpolated; parallel and iterated, each step four times from the
+            same point with what came out (`host.repeated_inputs`); nothing but the standard's functions
   fmpy      fmpy.ssp.simulation: parallel, held, and every input 0 in the first step
 """
 
@@ -36,6 +40,7 @@ from fmpy.ssp.ssd import ParameterSet, read_ssd
 HERE = Path(__file__).resolve().parent / "system"
 MASS, STIFFNESS, LOAD = 3.0, 1e7, 500.0  # kg, N/m, N
 GRID = 1e-4  # s between the positions that are compared
+PASSES, END = 4, 2  # of each step, iterated; number of the item `end` of `host.repeated_inputs`
 MOTION = {"x": "shaft.x", "y": "shaft.y", "vx": "shaft.vx", "vy": "shaft.vy", "ax": "shaft.ax", "ay": "shaft.ay"}
 
 
@@ -60,18 +65,30 @@ def unit_fmu(folder, name, description):
     return path
 
 
-def fmus_in(folder):
+CASINGS = {
+    "free": {},
+    "no damper": {"housing.damping_n_s_m": 0.0},
+    "fixed": {"housing": None, "housing.motion": "fixed", "sensor": None},
+}
+
+
+def fmus_in(folder, casings):
     """The bearings, healthy and spalled: below a shaft that the host moves, and with mass and spring inside."""
     base = SCENES / "er16k-tb1-hosted-shaft.toml"
-    common = {"shaft.speed_hz": 30.0, "housing.load_n": [0.0, 0.0], "solver.tolerance": 1e-9}
+    common = {"shaft.speed_hz": 30.0, "solver.tolerance": 1e-9}
     ring = {"mass_kg": MASS, "stiffness_n_m": STIFFNESS, "damping_n_s_m": 0.0, "load_n": [0.0, -LOAD / 2]}
     inside = {"shaft.motion": "internal", **{f"shaft.{key}": value for key, value in ring.items()}}
-    scenes = []
-    for name, changes in (("healthy", {"defect": None, "contact": None}), ("spalled", {})):
-        scenes.append(changed_scene(base, f"system-{name}", {**changes, **common}, folder))
-        scenes.append(changed_scene(base, f"system-{name}-whole", {**changes, **common, **inside}, folder))
+    scenes, cases = [], []
+    for name, defect in (("healthy", {"defect": None, "contact": None}), ("spalled", {})):
+        for casing in casings:
+            loads = {} if casing == "fixed" else {"housing.load_n": [0.0, 0.0]}
+            changes = {**defect, **CASINGS[casing], **common, **loads}
+            stem = f"system-{name}" if casing == "free" else f"system-{name}-{casing.replace(' ', '-')}"
+            scenes.append(changed_scene(base, stem, changes, folder))
+            scenes.append(changed_scene(base, f"{stem}-whole", {**changes, **inside}, folder))
+            cases.append((name, casing))
     paths = build(scenes, folder)
-    return {"healthy": paths[:2], "spalled": paths[2:]}
+    return {case: paths[2 * i : 2 * i + 2] for i, case in enumerate(cases)}
 
 
 def whole_run(fmu, stop):
@@ -148,8 +165,10 @@ def write_system(path, bearing, rotor, force, start):
 class Unit(Instance):
     """A component of a system: its values and derivatives by connector."""
 
-    def __init__(self, component, folder):
+    def __init__(self, component, folder, iterated):
         super().__init__(os.path.join(folder, component.source), component.name)
+        if iterated and "host.repeated_inputs" in self.reference:
+            self.slave.setInteger([self.reference["host.repeated_inputs"]], [END])
         self.enter({parameter.name: float(parameter.value) for parameter in parameters_of(component)})
         names = {kind: [c.name for c in component.connectors if c.kind == kind] for kind in ("input", "output")}
         self.inputs, self.outputs = (Numbers(self, names[kind]) for kind in ("input", "output"))
@@ -181,7 +200,8 @@ def ours(kind, handover):
 
     def run(ssp, h, stop):
         system = read_ssd(str(ssp)).system
-        units = {component.name: Unit(component, unzipped(str(ssp))) for component in system.elements}
+        folder, iterated = unzipped(str(ssp)), kind == "iterated"
+        units = {component.name: Unit(component, folder, iterated) for component in system.elements}
         ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
         wires = {}
         for component in system.elements:
@@ -197,7 +217,10 @@ def ours(kind, handover):
                 unit.run()
             positions, every = [rotor.give()[:2]], round(GRID / h)
             for count in range(1, round(stop / h) + 1):
-                step(units, wires, h, kind, handover)
+                if iterated:
+                    iterate(units, wires, h)
+                else:
+                    step(units, wires, h, kind, handover)
                 if not np.all(np.abs(rotor.give()[:2]) < 1e-3):
                     raise RuntimeError(f"unstable at {count * h:.4g} s")
                 if count % every == 0:
@@ -230,6 +253,16 @@ def step(units, wires, h, kind, handover):
             known[name] = unit.give()
 
 
+def iterate(units, wires, h):
+    """One communication step of all units in parallel, taken again and again with what the others came to."""
+    for repeat in range(PASSES):
+        known = {name: unit.give() for name, unit in units.items()}
+        for name, unit in units.items():
+            unit.restore() if repeat else unit.save()
+            unit.tell([known[other][i] for other, i in wires[name]])
+            unit.step(h)
+
+
 def parameters_of(component):
     sets = [values for binding in component.parameterBindings for values in binding.parameterValues]
     return [parameter for values in sets for parameter in values.parameters]
@@ -257,7 +290,9 @@ def by_fmpy(ssp, h, stop):
 ALGORITHMS = [
     ("ours", "parallel", "`mean_force`, held", "mean_force", ours("parallel", "held")),
     ("ours", "parallel", "`force`, held", "force", ours("parallel", "held")),
+    ("ours", "parallel", "`next_mean_force`, held", "next_mean_force", ours("parallel", "held")),
     ("ours", "parallel", "`force` and its derivative", "force", ours("parallel", "derivative")),
+    ("ours", "iterated", "`mean_force`, held; the end repeated", "mean_force", ours("iterated", "held")),
     ("ours", "sequential", "`force`, held", "force", ours("sequential", "held")),
     ("ours", "sequential", "`force`, interpolated", "force", ours("sequential", "interpolated")),
     ("ours", "sequential", "`mean_force`, held", "mean_force", ours("sequential", "held")),
@@ -284,24 +319,25 @@ def main():
     options = parser.parse_args()
     steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 5e-3 if options.short else 0.02
-    fmus = fmus_in(options.output)
+    casings = ["free"] if options.build or options.short else list(CASINGS)
+    fmus = fmus_in(options.output, casings)
     rotor = unit_fmu(options.output, "rotor", (HERE / "rotor.xml").read_bytes())
     if not options.build:
-        heads = ["bearing", "whose", "algorithm", "the rotor gets", *(f"{h * 1e6:g} µs" for h in steps)]
+        heads = ["bearing", "casing", "whose", "algorithm", "the rotor gets", *(f"{h * 1e6:g} µs" for h in steps)]
         print("| " + " | ".join(heads) + " |")
-        print("|---|---|---|---|" + "---|" * len(steps))
-    for name, (bearing, inside) in fmus.items():
+        print("|---|---|---|---|---|" + "---|" * len(steps))
+    for (name, casing), (bearing, inside) in fmus.items():
         exact = whole_run(inside, GRID if options.build else stop)
         systems = {}
-        for force in ("force", "mean_force"):
-            path = options.output / f"{name}-{force}.ssp"
+        for force in ("force", "mean_force", "next_mean_force"):
+            path = options.output / f"{bearing.stem.removeprefix('system-')}-{force}.ssp"
             systems[force] = write_system(path, bearing, rotor, force, exact[0])
             if options.build:
                 print(path)
         for whose, kind, handover, force, run in ALGORITHMS:
             if not options.build:
                 cells = [error(run, systems[force], exact, h, stop) for h in steps]
-                print(f"| {name} | {whose} | {kind} | {handover} | " + " | ".join(cells) + " |", flush=True)
+                print(f"| {name} | {casing} | {whose} | {kind} | {handover} | " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

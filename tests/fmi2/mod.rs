@@ -5,6 +5,7 @@ mod hostile;
 mod input_derivatives;
 mod instantiate;
 mod logging;
+mod model_exchange;
 mod modes;
 mod output_derivatives;
 mod panics;

@@ -2,6 +2,7 @@
 
 mod derivatives;
 mod instantiate;
+mod model_exchange;
 mod modes;
 mod outliving;
 mod saved_states;

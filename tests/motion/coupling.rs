@@ -1,8 +1,8 @@
 //! What a coupling loses: a mass on the shaft, without anything between, in a host that holds and in one that iterates,
 //! against one simulation that holds the mass.
 //!
-//! The mass is 3 kg on a damper of 1376.8 N s/m; it rests under half of 500 N, and at the start the other half is added.
-//! Error: rms of its position, every 0.1 ms for 20 ms, over rms of its way.
+//! The mass is 3 kg on a damper of 1376.8 N s/m; it rests under half of 500 N, and at the start the other half is
+//! added. Error: rms of its position, every 0.1 ms for 20 ms, over rms of its way.
 #![allow(clippy::unwrap_used)]
 
 use crate::support::shipped;

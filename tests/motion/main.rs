@@ -12,6 +12,7 @@ mod derivatives;
 #[path = "../element_inertia/mod.rs"]
 mod element_inertia;
 mod exactness;
+mod exchange;
 mod fastest_eigenvalue;
 mod film;
 mod line_spall;

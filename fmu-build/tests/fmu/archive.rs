@@ -54,6 +54,8 @@ fn an_fmu_holds_what_the_standard_names_and_nothing_else() {
         "resources/map.bin",
         "resources/model.bin",
         "resources/scene.toml",
+        "terminalsAndIcons/icon.png",
+        "terminalsAndIcons/terminalsAndIcons.xml",
     ];
     assert_eq!(names, expected);
 }

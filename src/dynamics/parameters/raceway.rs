@@ -164,8 +164,8 @@ impl Defects {
         ahead.reduce(|near, other| if other.angle < near.angle { other } else { near })
     }
 
-    /// Angle (rad) by which a direction in the body's frame is within `cell`, to the nearer of its ends; negative outside
-    /// it. Infinite without a defect.
+    /// Angle (rad) by which a direction in the body's frame is within `cell`, to the nearer of its ends; negative
+    /// outside it. Infinite without a defect.
     pub fn within(&self, cell: u32, direction: f64) -> f64 {
         let holding = |defect: &&SurfaceDefect| cell == SMOOTH || defect.holds(cell);
         let defects = self.defects.iter().filter(holding);

@@ -15,8 +15,8 @@ impl Simulation {
         2 * self.run.model.element_count + watched(&self.run.model, &self.run.state.progress.cells, true).count()
     }
 
-    /// The event indicators: approaches of inner contacts and of outer ones (m); then the angles (rad) that contacts have
-    /// left to the nearer end of their cell.
+    /// The event indicators: approaches of inner contacts and of outer ones (m); then the angles (rad) that contacts
+    /// have left to the nearer end of their cell.
     ///
     /// # Errors
     /// Before `initialize`: an equilibrium that does not exist.
@@ -58,8 +58,8 @@ impl Simulation {
         Ok(!entered.is_empty())
     }
 
-    /// Shows of each contact that defects concern the angle by which it is within its cell, the cell that it is over, and
-    /// which it is.
+    /// Shows of each contact that defects concern the angle by which it is within its cell, the cell that it is over,
+    /// and which it is.
     fn each_cell(&mut self, mut see: impl FnMut(f64, u32, crate::simulation::integration::landing::Contact)) {
         let excitation = self.excitation(false);
         let (forces, Run { model, state, .. }) = (&mut self.present.evaluation.forces, &self.run);

@@ -1,9 +1,9 @@
 //! One bearing from its scene on: its life from setting up to stepping, and its state taken and put back.
 
 use super::running::{Present, Run};
-use super::state::{Ended, FirstInputs, History, State};
+use super::state::{Ahead, Ended, State};
 use crate::contact::map::ContactMaps;
-use crate::dynamics::contacts::{RingForces, Shortcuts};
+use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{Cells, Excitation, Model, WholeAngle};
 use crate::scene::Scene;
 use crate::simulation::Method;
@@ -28,15 +28,6 @@ pub struct Simulation {
     pub(in crate::simulation) change: Change,
     pub(super) up_to_date: UpToDate,
     pub(super) ahead: Ahead,
-}
-
-/// A look at the next step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Ahead {
-    /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
-    pub(super) force: Option<RingForces>,
-    /// Where the state is kept meanwhile.
-    pub(super) state: Option<Box<State>>,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
@@ -238,13 +229,7 @@ impl Simulation {
             variable.causality == Causality::Parameter
                 && (present.reals[i].to_bits() != state.reals[i].to_bits() || present.integers[i] != state.integers[i])
         });
-        // What a step began with the first time is no part of the state before that time.
-        if self.run.state.first.are_of(state.time) {
-            self.run.state.copy_all_but_first(state);
-        } else {
-            self.run.state.copy_from(state);
-        }
-        self.ahead.force = None;
+        self.run.state.go_back_to(state, &mut self.ahead);
         if let Some(recorder) = &mut self.run.recorder {
             recorder.rewind(&self.run.state.progress.due);
         }
@@ -287,9 +272,8 @@ impl Simulation {
         (run.state.cage, run.state.frames) = (cage, [shaft, housing, WholeAngle::new(0.0)]);
         let excitation = run.excitation(&interface.inputs, false);
         setup.check_films(&run.model, &excitation, 0.0)?;
-        let count = interface.inputs.count;
-        (run.state.history, run.state.first) = (History::none(count), FirstInputs::none(count));
-        self.ahead.force = None;
+        run.state.forget_steps();
+        self.ahead.begin(&run.state, interface.inputs.repeated.is_some());
         run.state.progress = Progress::new(&run.model, run.rows_under_way());
         let progress = &mut run.state.progress;
         progress.cells = run.model.equilibrium_with_cells(&excitation, &mut progress.state)?;

@@ -1,25 +1,27 @@
 //! The force to hold over the next communication step, by a step ahead that is taken back.
 //!
-//! A host that steps all units in parallel and holds inputs gives a ring one force for the whole of a step, of length h. What
-//! brings the ring to the right velocity is the mean of the force over that step; it is not known yet, but the bearing can
-//! take the step itself, along the way on which the ring is going, and see. Elements, edges of a defect, contact changes,
-//! dampers and a housing of its own are in it as in any step.
+//! A host that steps all units in parallel and holds inputs gives a ring one force for the whole of a step, of length
+//! h. What brings the ring to the right velocity is the mean of the force over that step; it is not known yet, but the
+//! bearing can take the step itself, along the way on which the ring is going, and see. Elements, edges of a defect,
+//! contact changes, dampers and a housing of its own are in it as in any step.
 //!
-//! *The position.* A force F that grows by F' brings a ring of mass m to ½ F h²/m + ⅙ F' h³/m, its mean held brings it to
-//! ½ (F + ½ F' h) h²/m, which is F' h³/12m too far. Step after step that is a velocity of h² F'/12m, as if h² F''/12 were
-//! pushed too much. So the force to hold is
+//! *The position.* A force F that grows by F' brings a ring of mass m to ½ F h²/m + ⅙ F' h³/m, its mean held brings it
+//! to ½ (F + ½ F' h) h²/m, which is F' h³/12m too far. Step after step that is a velocity of h² F'/12m, as if h² F''/12
+//! were pushed too much. So the force to hold is
 //! ```text
 //! mean − h² F''/12,   F'' = −K a
 //! ```
 //! with the tangent stiffness K and the acceleration a of the rings against each other.
 //!
-//! *The way.* Such a host hands on the acceleration that belonged to the force held before: the FMU has moved the ring by what
-//! is one step late. The velocities v that it gives are exact, and so are the mean accelerations between them. They are
-//! continued to the last step, whose end is put right by what its own mean acceleration differs, and to the next:
+//! *The way.* Such a host hands on the acceleration that belonged to the force held before: the FMU has moved the ring
+//! by what is one step late. The velocities v that it gives are exact, and so are the mean accelerations between them.
+//! They are continued to the last step, whose end is put right by what its own mean acceleration differs, and to the
+//! next:
 //! ```text
 //! a(t) by the line through the means of the last two steps that are known
 //! ```
-//! Before three steps are known the ring goes on as the inputs say; before the first one the force is that of the start.
+//! Before three steps are known the ring goes on as the inputs say; before the first one the force is that of the
+//! start.
 
 use super::life::{Simulation, UpToDate};
 use super::state::{Ended, History};
@@ -28,8 +30,8 @@ use crate::numerics::plane::{Matrix, Vector};
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Inputs, Quantity, RingName};
 
-/// Steps that the line through two means is followed beyond the later one at most, in lengths of those; of equal steps it is
-/// followed for 1 and 2.
+/// Steps that the line through two means is followed beyond the later one at most, in lengths of those; of equal steps
+/// it is followed for 1 and 2.
 const REACH: f64 = 3.0;
 
 impl Simulation {

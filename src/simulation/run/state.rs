@@ -1,6 +1,7 @@
 //! All that the future of a simulation depends on, and nothing else. It is what runs: taking it is a copy, putting it
 //! back another.
 
+use crate::dynamics::contacts::RingForces;
 use crate::dynamics::parameters::WholeAngle;
 use crate::simulation::integration::Progress;
 use crate::simulation::interface::Angles;
@@ -101,6 +102,25 @@ impl FirstInputs {
     }
 }
 
+/// A look at the next step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ahead {
+    /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
+    pub(super) force: Option<RingForces>,
+    /// Where the state is kept meanwhile.
+    pub(super) state: Option<Box<State>>,
+}
+
+impl Ahead {
+    /// Nothing is known; if looks are to be expected there is room for the state, so that they allocate nothing.
+    pub(super) fn begin(&mut self, state: &State, expected: bool) {
+        self.force = None;
+        if expected && self.state.is_none() {
+            self.state = Some(Box::new(state.clone()));
+        }
+    }
+}
+
 impl State {
     /// Angles of cage and frames.
     pub(in crate::simulation) fn angles(&self) -> Angles {
@@ -113,8 +133,25 @@ impl State {
         self.first.copy_from(&other.first);
     }
 
+    /// Forgets the steps that were taken.
+    pub(super) fn forget_steps(&mut self) {
+        let inputs = self.input_rates.len();
+        (self.history, self.first) = (History::none(inputs), FirstInputs::none(inputs));
+    }
+
+    /// Copies a state that was taken earlier. What a step began with the first time is no part of the state before that
+    /// time, and stays.
+    pub(super) fn go_back_to(&mut self, earlier: &Self, ahead: &mut Ahead) {
+        ahead.force = None;
+        if self.first.are_of(earlier.time) {
+            self.copy_all_but_first(earlier);
+        } else {
+            self.copy_from(earlier);
+        }
+    }
+
     /// Copies all of it but the first inputs of a step.
-    pub(super) fn copy_all_but_first(&mut self, other: &Self) {
+    fn copy_all_but_first(&mut self, other: &Self) {
         let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates, history, first: _ } =
             self;
         (*time, *started, *ended) = (other.time, other.started, other.ended);

@@ -16,7 +16,8 @@ macro_rules! functions {
         $(#[$meaning])*
         ///
         /// # Safety
-        /// `c` may be any value; pointers are null or point to what their names say, arrays to as many elements as said.
+        /// `c` may be any value; pointers are null or point to what their names say, arrays to as many elements as
+        /// said.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: Component, $($argument: $type),*) -> Status {
             const ANY: Function = Function { name: stringify!($name), version: Version::Fmi2, allowed: ALWAYS };

@@ -15,8 +15,8 @@ macro_rules! functions {
         $(#[$meaning])*
         ///
         /// # Safety
-        /// `instance` may be any value; pointers are null or point to what their names say, arrays to as many elements as
-        /// said.
+        /// `instance` may be any value; pointers are null or point to what their names say, arrays to as many elements
+        /// as said.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(instance: Handle, $($argument: $type),*) -> Status {
             const ANY: Function = Function { name: stringify!($name), version: Version::Fmi3, allowed: ALWAYS };
@@ -43,7 +43,8 @@ functions! {
         instance.enter(Event, function);
         Ok(())
     };
-    /// `fmi3UpdateDiscreteStates`: contacts at the end of their part of a defect enter the next one. Nothing is iterated.
+    /// `fmi3UpdateDiscreteStates`: contacts at the end of their part of a defect enter the next one. Nothing is
+    /// iterated.
     fmi3UpdateDiscreteStates(
         discreteStatesNeedUpdate: *mut Bool,
         terminateSimulation: *mut Bool,

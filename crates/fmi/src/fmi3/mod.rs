@@ -1,8 +1,9 @@
 //! The FMI 3.0 co-simulation C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
 //!
 //! All functions of `fmi3Functions.h` are exported, as the standard asks; those of scheduled execution, clocks and
-//! structural parameters only say that they are not provided, those of model exchange in an instance for co-simulation. Each is one call into `boundary`, as
-//! in FMI 2.0. Variables are the same, by the same names; what every element has is one array. Here are:
+//! structural parameters only say that they are not provided, those of model exchange in an instance for co-simulation.
+//! Each is one call into `boundary`, as in FMI 2.0. Variables are the same, by the same names; what every element has
+//! is one array. Here are:
 //!
 //! | file | knows |
 //! |---|---|

@@ -7,7 +7,8 @@ use crate::c_interface::ValueReference;
 use brinell::simulation::{Simulation, SimulationError};
 
 /// Why not, in FMI 3.0.
-const ONLY_CO_SIMULATION: &str = "is for co-simulation: step it with fmi3DoStep";
+const ONLY_CO_SIMULATION: &str = "is for co-simulation: step it with fmi3DoStep; it has no event mode, as \
+     modelDescription.xml says with hasEventMode=\"false\"";
 
 /// A list of the host's that has one place for each of something.
 #[derive(Debug, Clone, Copy)]

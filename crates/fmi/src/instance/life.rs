@@ -14,7 +14,7 @@ use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 
-/// Suggested steps from which on one is warned of: errors beyond some 10 %.
+/// Suggested steps from which on one is warned of: errors beyond some 10 % with whatever wiring.
 const TOO_LONG: f64 = 3.0;
 
 /// One instance of the FMU.
@@ -138,9 +138,9 @@ impl Instance {
             self.logger.line(Status::Warning, || {
                 format!(
                     "communication step of {step:e} s: the rings on this casing ask for some {suggested:.1e} s \
-                     (solver.suggested_step) where next_mean_force is held, mean_force taken in sequence or derivatives \
-                     passed on, and for a twenty-fifth of it where force is held; a longer one feeds or damps what it \
-                     couples, by its square."
+                     (solver.suggested_step) where next_mean_force is held, mean_force taken in sequence or \
+                     derivatives passed on, and for a hundredth of it where force is held; the error grows by the \
+                     step's square."
                 )
             });
         }

@@ -1,8 +1,8 @@
 //! What Model Exchange adds to a model description: continuous states, their derivatives, and in FMI 3.0 the event
 //! indicators, each a variable.
 //!
-//! In FMI 2.0 the structure counts variables from 1. Those of the table come first, and the references behind it leave one
-//! out for the time of FMI 3.0: there a variable's number is its reference, in both versions.
+//! In FMI 2.0 the structure counts variables from 1. Those of the table come first, and the references behind it leave
+//! one out for the time of FMI 3.0: there a variable's number is its reference, in both versions.
 
 use brinell::simulation::exchange::{ExchangeRole, ExchangeVariable};
 use minijinja::{Value, context};

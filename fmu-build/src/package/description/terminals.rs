@@ -1,5 +1,5 @@
-//! `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0, and of 2.0.4, which took it over: a terminal for each ring, where a rotor or a casing is
-//! connected, and the icon.
+//! `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0, and of 2.0.4, which took it over: a terminal for each ring,
+//! where a rotor or a casing is connected, and the icon.
 //!
 //! A terminal holds what its ring exchanges with a body outside: motion, loads and the bearing's force in the plane,
 //! speed and torque about the axis. All of it is `signal`: the standard keeps `inflow` and `outflow` for scalars that

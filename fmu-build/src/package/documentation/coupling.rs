@@ -7,8 +7,9 @@ use crate::package::model::Model;
 
 /// The load (N) under which the bearing's stiffness is taken; the step follows its sixth root.
 const LOAD: f64 = 1000.0;
-/// ωh of a force that is held as it is, over that of a wiring of second order; both are about 1 % off.
-const HELD: f64 = 1.0 / 25.0;
+/// ωh of a wiring of second order, and of a force that is held as it is: both are about 1 % off.
+const SECOND_ORDER: f64 = 0.1;
+const HELD: f64 = 0.001;
 
 /// The rule in numbers, where a ring is the host's and the bearing can carry the load.
 pub(super) fn of(model: &Model) -> Option<Value> {
@@ -17,14 +18,14 @@ pub(super) fn of(model: &Model) -> Option<Value> {
     let rounded = |step: f64| if step >= 1e-5 { format!("{:.0} µs", step * 1e6) } else { micro(step) };
     Some(context! {
         load => LOAD,
-        frequency => format!("{:.0}", 0.25 / step / std::f64::consts::TAU),
+        frequency => format!("{:.0}", SECOND_ORDER / step / std::f64::consts::TAU),
         second_order => rounded(step),
-        held => rounded(HELD * step),
+        held => rounded(HELD / SECOND_ORDER * step),
     })
 }
 
-/// `solver.suggested_step` at the position of the shaft, or of the housing where only that is the host's, that carries the
-/// load.
+/// `solver.suggested_step` at the position of the shaft, or of the housing where only that is the host's, that carries
+/// the load.
 fn suggested_step(model: &Model) -> Option<f64> {
     let mut simulation = model.simulation.clone();
     let (name, towards) = match (model.scene.shaft.motion, model.scene.housing.motion) {

@@ -20,6 +20,7 @@ pub(super) struct Builder<'a> {
     rows: Vec<(Variable, Quantity)>,
 }
 
+pub(super) const AXES: [&str; 2] = ["x", "y"];
 pub(super) const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 /// Start value, limits and nominal value of a parameter, in its unit.
 #[derive(Debug, Clone, Copy)]
@@ -77,5 +78,15 @@ impl<'a> Builder<'a> {
             variability: causality.1,
         };
         self.rows.push((variable, quantity));
+    }
+
+    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
+        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
+        let variability = match quantity {
+            // A mean belongs to a communication step.
+            Quantity::MeanForce(..) | Quantity::NextMeanForce(..) => Variability::Discrete,
+            _ => Variability::Continuous,
+        };
+        self.push(name, text, kind, (Causality::Output, variability), quantity);
     }
 }

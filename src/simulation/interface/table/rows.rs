@@ -1,7 +1,7 @@
 //! The rows of the variable table for a scene: the one place where a variable is named.
 //!
-//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index is its
-//! FMI value reference, which stays as rows are added.
+//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index
+//! is its FMI value reference, which stays as rows are added.
 
 use super::coordinates::{Along, COORDINATES, name, stiffness_name};
 use crate::scene::{Motion, Scene};
@@ -361,16 +361,6 @@ impl Builder<'_> {
         let derivatives = quantity.as_input().map_or("no derivative acts", |input| input.derivatives().1);
         let text = [text, "; ", derivatives].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
-    }
-
-    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
-        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
-        let variability = match quantity {
-            // A mean belongs to a communication step.
-            Q::MeanForce(..) | Q::NextMeanForce(..) => Variability::Discrete,
-            _ => Variability::Continuous,
-        };
-        self.push(name, text, kind, (Causality::Output, variability), quantity);
     }
 
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {

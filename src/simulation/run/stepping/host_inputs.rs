@@ -1,17 +1,17 @@
 //! What a host gives at a communication point: kept for the look ahead, and turned where a step is repeated.
 //!
-//! *The last steps.* From the velocities that the host gave follow the mean accelerations between them, whatever it gives as
-//! acceleration and however late that is.
+//! *The last steps.* From the velocities that the host gave follow the mean accelerations between them, whatever it
+//! gives as acceleration and however late that is.
 //!
-//! *Repeated steps.* A host that iterates takes a step, puts the state back, and takes the step anew with what the other
-//! units have come to meanwhile: values of the step's end. With `host.repeated_inputs = end` they are taken for that. The
-//! inputs keep what was given when the step was taken first, and go from there to the values of the end. With
+//! *Repeated steps.* A host that iterates takes a step, puts the state back, and takes the step anew with what the
+//! other units have come to meanwhile: values of the step's end. With `host.repeated_inputs = end` they are taken for
+//! that. The inputs keep what was given when the step was taken first, and go from there to the values of the end. With
 //! d = x₁ − x₀ − v₀h and w = v₁ − v₀ a ring goes as the cubic
 //! ```text
 //! a = 6 d/h² − 2 w/h      a' = 6 w/h² − 12 d/h³
 //! ```
-//! or, where the velocity is as it was and so was not given anew, as the parabola a = 2 d/h². Loads and speeds go straight.
-//! Derivatives that the host sets for a repeated step do not act: its ends say how it goes.
+//! or, where the velocity is as it was and so was not given anew, as the parabola a = 2 d/h². Loads and speeds go
+//! straight. Derivatives that the host sets for a repeated step do not act: its ends say how it goes.
 
 use crate::dynamics::parameters::Excitation;
 use crate::scene::RepeatedInputs;

@@ -1,0 +1,143 @@
+//! Model exchange (FMI 2.0, chapter 3): its functions in their order, out of it, and what they give.
+
+use crate::two::{Call, Host, Log, Resources, logger};
+use brinell_fmi::fmi2::*;
+use std::fs;
+use std::ptr;
+use std::sync::Arc;
+
+/// Resources as `brinell build --kind both` packs them.
+fn resources(scene: &str) -> Arc<Resources> {
+    let resources = Resources::of(scene);
+    fs::write(resources.directory.join("interface"), "model-exchange").unwrap();
+    resources.into()
+}
+
+fn made(resources: &Arc<Resources>) -> (Component, Box<Log>) {
+    let call = Call {
+        name: Some("integrated"),
+        fmu_type: MODEL_EXCHANGE,
+        guid: Some(&resources.guid),
+        location: Some(&resources.uri()),
+        logger: Some(logger()),
+        logging: true,
+    };
+    call.make()
+}
+
+/// An instance in event mode.
+fn started(scene: &str) -> Host {
+    let resources = resources(scene);
+    let (c, log) = made(&resources);
+    assert!(!c.is_null());
+    let host = Host { c, log, resources };
+    host.start();
+    host
+}
+
+fn list(host: &Host, count: usize, get: unsafe extern "C" fn(Component, *mut Real, usize) -> Status) -> Vec<f64> {
+    let mut values = vec![f64::NAN; count];
+    // SAFETY: as long as said.
+    assert_eq!(unsafe { get(host.c, values.as_mut_ptr(), count) }, Status::Ok, "{:?}", host.lines());
+    values
+}
+
+/// Six states of one element each, two of both rings and their velocities, the sensor, the cage's angle: of er16k-tb1.
+const STATES: usize = 2 * 9 + 2 * 4 + 2 + 1;
+/// Onsets of both contacts of nine elements, and nine contacts with the raceway that has the defect.
+const INDICATORS: usize = 2 * 9 + 9;
+
+#[test]
+fn an_fmu_for_model_exchange_goes_from_event_mode_to_continuous_time_and_back() {
+    let host = started("er16k-tb1");
+    let info = EventInfo {
+        new_discrete_states_needed: TRUE,
+        terminate_simulation: TRUE,
+        nominals_of_continuous_states_changed: TRUE,
+        values_of_continuous_states_changed: TRUE,
+        next_event_time_defined: TRUE,
+        next_event_time: 1.0,
+    };
+    let mut found = info;
+    // SAFETY of this and what follows: any handle may be passed; pointers are to what they say.
+    assert_eq!(unsafe { fmi2NewDiscreteStates(host.c, &raw mut found) }, Status::Ok, "{:?}", host.lines());
+    assert_eq!(
+        [found.new_discrete_states_needed, found.terminate_simulation, found.next_event_time_defined],
+        [FALSE; 3]
+    );
+    assert_eq!(unsafe { fmi2EnterContinuousTimeMode(host.c) }, Status::Ok);
+    let states = list(&host, STATES, fmi2GetContinuousStates);
+    assert!(states.iter().any(|state| *state != 0.0));
+    assert!(list(&host, STATES, fmi2GetNominalsOfContinuousStates).iter().all(|nominal| *nominal > 0.0));
+    let indicators = list(&host, INDICATORS, fmi2GetEventIndicators);
+    assert!(indicators[18..].iter().all(|left| *left > 0.0), "{indicators:?}");
+    // At rest in equilibrium the rings stay, and the cage turns by 3.8 turns a second.
+    let slopes = list(&host, STATES, fmi2GetDerivatives);
+    assert!(slopes[STATES - 1] > 20.0 && slopes[18].abs() < 1e-9, "{slopes:?}");
+    let moved: Vec<f64> = states.iter().zip(&slopes).map(|(state, slope)| state + 1e-6 * slope).collect();
+    assert_eq!(unsafe { fmi2SetTime(host.c, 1e-6) }, Status::Ok);
+    assert_eq!(unsafe { fmi2SetContinuousStates(host.c, moved.as_ptr(), STATES) }, Status::Ok);
+    assert_eq!(list(&host, STATES, fmi2GetContinuousStates)[..STATES - 1], moved[..STATES - 1]);
+    let (mut event, mut end) = (TRUE, TRUE);
+    assert_eq!(unsafe { fmi2CompletedIntegratorStep(host.c, TRUE, &raw mut event, &raw mut end) }, Status::Ok);
+    assert_eq!([event, end], [FALSE; 2]);
+    assert_eq!(unsafe { fmi2EnterEventMode(host.c) }, Status::Ok);
+    assert_eq!(host.terminate(), Status::Ok);
+}
+
+#[test]
+fn functions_of_the_other_kind_and_out_of_their_mode_are_errors() {
+    // SAFETY: any handle may be passed; pointers are to what they say, or not read.
+    let wrong: [(&str, fn(&Host) -> Status); 4] = [
+        ("fmi2DoStep", |h| h.step(0.0, 1e-5)),
+        ("fmi2SetContinuousStates", |h| unsafe { fmi2SetContinuousStates(h.c, [0.0; STATES].as_ptr(), STATES) }),
+        ("fmi2CompletedIntegratorStep", |h| unsafe {
+            fmi2CompletedIntegratorStep(h.c, TRUE, ptr::null_mut(), ptr::null_mut())
+        }),
+        ("fmi2GetDerivatives", |h| unsafe { fmi2GetDerivatives(h.c, [0.0; 3].as_mut_ptr(), 3) }),
+    ];
+    for (name, call) in wrong {
+        let host = started("er16k-tb1");
+        assert_eq!(call(&host), Status::Error, "{name}");
+        let line = host.lines().pop().unwrap();
+        assert!(line.message.starts_with(name), "{line:?}");
+    }
+}
+
+#[test]
+fn an_fmu_that_is_not_for_model_exchange_says_how_to_build_one() {
+    let resources: Arc<Resources> = Resources::of("er16k-tb1").into();
+    let (c, log) = made(&resources);
+    assert!(c.is_null());
+    assert!(log.take().last().unwrap().message.contains("--kind both"));
+}
+
+#[test]
+fn a_state_no_contact_law_has_an_answer_for_is_discarded_and_the_instance_goes_on() {
+    let host = started("er16k-tb1");
+    // SAFETY: any handle may be passed; the list is as long as said.
+    unsafe {
+        assert_eq!(fmi2EnterContinuousTimeMode(host.c), Status::Ok);
+        let states = list(&host, STATES, fmi2GetContinuousStates);
+        let mut wild = states.clone();
+        wild[0] = f64::NAN;
+        assert_eq!(fmi2SetContinuousStates(host.c, wild.as_ptr(), STATES), Status::Discard);
+        assert_eq!(list(&host, STATES, fmi2GetContinuousStates), states);
+    }
+}
+
+#[test]
+fn a_state_saved_under_one_kind_is_refused_under_the_other() {
+    let integrated = started("er16k-tb1");
+    let state = integrated.save();
+    assert_eq!(integrated.restore(state), Status::Ok);
+    // Derivatives are the same after it, to the bit.
+    let before = list(&integrated, STATES, fmi2GetDerivatives);
+    assert_eq!(integrated.restore(state), Status::Ok);
+    assert_eq!(list(&integrated, STATES, fmi2GetDerivatives), before);
+    let bytes = integrated.serialize(state);
+    let stepped = Host::with(Arc::clone(&integrated.resources), "stepped", true);
+    let elsewhere = stepped.deserialize(&bytes).unwrap();
+    assert_eq!(stepped.restore(elsewhere), Status::Error);
+    assert!(stepped.lines().pop().unwrap().message.contains("other kind"));
+}

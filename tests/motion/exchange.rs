@@ -1,0 +1,288 @@
+//! Model Exchange: integrated by somebody else a bearing moves as by itself, and its Jacobian is that of differences.
+#![allow(clippy::unwrap_used)]
+
+use crate::support::shipped;
+use brinell::scene::{ElementInertia, Motion, Ring, Scene};
+use brinell::simulation::Simulation;
+use brinell::simulation::exchange::ExchangeRole;
+
+/// A host that integrates: Runge and Kutta's classical method with steps of one length, which ends on events.
+struct Host {
+    simulation: Simulation,
+    time: f64,
+    states: Vec<f64>,
+    indicators: Vec<f64>,
+    events: usize,
+    cells_entered: usize,
+}
+
+impl Host {
+    fn new(mut simulation: Simulation) -> Self {
+        let mut states = vec![0.0; simulation.continuous_state_count()];
+        simulation.continuous_states(&mut states).unwrap();
+        let mut indicators = vec![0.0; simulation.event_indicator_count()];
+        simulation.event_indicators(&mut indicators).unwrap();
+        Self { simulation, time: 0.0, states, indicators, events: 0, cells_entered: 0 }
+    }
+
+    fn slope(&mut self, states: &[f64]) -> Vec<f64> {
+        self.simulation.set_continuous_states(states);
+        let mut slope = vec![0.0; states.len()];
+        self.simulation.state_derivatives(&mut slope).unwrap();
+        slope
+    }
+
+    /// Where a step of `h` ends.
+    fn tried(&mut self, h: f64) -> Vec<f64> {
+        let start = self.states.clone();
+        let along = |slope: &[f64], by: f64| start.iter().zip(slope).map(|(x, k)| x + by * k).collect::<Vec<_>>();
+        let first = self.slope(&start);
+        let second = self.slope(&along(&first, 0.5 * h));
+        let third = self.slope(&along(&second, 0.5 * h));
+        let fourth = self.slope(&along(&third, h));
+        let mean = (0..start.len()).map(|i| (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]) / 6.0);
+        along(&mean.collect::<Vec<_>>(), h)
+    }
+
+    /// Whether an indicator has another sign there.
+    fn changes(&mut self, states: &[f64]) -> bool {
+        self.simulation.set_continuous_states(states);
+        let mut there = vec![0.0; self.indicators.len()];
+        self.simulation.event_indicators(&mut there).unwrap();
+        there.iter().zip(&self.indicators).any(|(new, old)| (*new > 0.0) != (*old > 0.0))
+    }
+
+    fn advance(&mut self, stop: f64, length: f64) {
+        while self.time < stop - 1e-15 {
+            let mut h = length.min(stop - self.time);
+            let mut end = self.tried(h);
+            let event = self.changes(&end);
+            if event {
+                let (mut low, mut high) = (0.0, h);
+                while high - low > 1e-16 {
+                    h = 0.5 * (low + high);
+                    if h == low || h == high {
+                        break;
+                    }
+                    end = self.tried(h);
+                    if self.changes(&end) { high = h } else { low = h }
+                }
+                h = high;
+                end = self.tried(h);
+            }
+            self.time += h;
+            self.simulation.set_time(self.time);
+            self.simulation.set_continuous_states(&end);
+            self.simulation.accept_states().unwrap();
+            if event {
+                self.events += 1;
+                self.cells_entered += usize::from(self.simulation.handle_event().unwrap());
+            }
+            self.states = end;
+            self.simulation.event_indicators(&mut self.indicators).unwrap();
+        }
+    }
+}
+
+fn started(scene: Scene) -> Simulation {
+    let mut simulation = Simulation::new(scene, None).unwrap();
+    simulation.initialize(0.0).unwrap();
+    simulation
+}
+
+/// Largest difference of a signal at multiples of the grid, over its range, and the host.
+fn compared(scene: &Scene, names: &[&str], stop: f64, h: f64) -> (f64, Host) {
+    let (mut by_itself, mut host) = (started(scene.clone()), Host::new(started(scene.clone())));
+    let kick = |simulation: &mut Simulation| {
+        if let Ok(y) = simulation.get("shaft.load.y") {
+            simulation.set("shaft.load.y", 1.2 * y).unwrap();
+        }
+    };
+    kick(&mut by_itself);
+    kick(&mut host.simulation);
+    let grid = 1e-4;
+    let (mut signals, mut apart) = (vec![[f64::MAX, f64::MIN]; names.len()], vec![0.0f64; names.len()]);
+    for count in 1..=(stop / grid).round() as usize {
+        by_itself.step(grid).unwrap();
+        host.advance(count as f64 * grid, h);
+        for (i, name) in names.iter().enumerate() {
+            let (own, other) = (by_itself.get(name).unwrap(), host.simulation.get(name).unwrap());
+            signals[i] = [signals[i][0].min(own), signals[i][1].max(own)];
+            apart[i] = apart[i].max((own - other).abs());
+        }
+    }
+    let worst = signals.iter().zip(&apart).map(|([low, high], apart)| apart / (high - low)).fold(0.0, f64::max);
+    println!("{}: {worst:.2e}, {} events, {} cells entered", scene.name, host.events, host.cells_entered);
+    (worst, host)
+}
+
+#[test]
+fn integrated_by_somebody_else_a_healthy_bearing_moves_as_by_itself() {
+    let scene = Scene { tolerance: 1e-11, ..shipped("6205-healthy") };
+    // Fixed steps of 0.1 µs leave 1e-8 of an element's vibration at 50 kHz in each of its periods.
+    let (worst, host) = compared(&scene, &["shaft.x", "shaft.y", "housing.y", "sensor.acceleration"], 3e-3, 1e-7);
+    assert!(worst < 1e-7, "{worst:e}");
+    assert_eq!(host.cells_entered, 0);
+}
+
+#[test]
+fn integrated_by_somebody_else_elements_go_through_a_spall_as_by_themselves() {
+    // An element enters the spall at 5 ms; what hung in the clearance has not yet begun to bounce.
+    let scene = Scene { tolerance: 1e-11, ..shipped("er16k-tb1") };
+    let (worst, host) = compared(&scene, &["shaft.y", "housing.y", "element[1].path"], 6.5e-3, 1e-7);
+    assert!(worst < 1e-6, "{worst:e}");
+    assert!(host.cells_entered >= 1, "no cell was entered");
+    assert!(host.events > host.cells_entered, "no contact began or ended");
+}
+
+#[test]
+fn without_inertia_and_with_both_rings_of_the_host_the_cage_angle_is_the_only_state() {
+    let mut scene = shipped("6205-hosted");
+    scene.bearing.element_inertia = ElementInertia::None;
+    let simulation = started(scene);
+    assert_eq!(simulation.continuous_state_count(), 1);
+    assert_eq!(simulation.exchange_variables()[0].name, "state.cage.angle");
+}
+
+/// The largest error of the Jacobian against differences, over the largest of its row, each by nominal changes.
+fn worst_of_jacobian(scene: Scene, before: f64, skip: impl Fn(&str) -> bool) -> f64 {
+    let mut simulation = started(scene);
+    simulation.step(before).unwrap();
+    let table: Vec<_> = simulation.table().to_vec();
+    let exchanged = simulation.exchange_variables();
+    let mut states = vec![0.0; simulation.continuous_state_count()];
+    simulation.continuous_states(&mut states).unwrap();
+    let of_table = |causality| {
+        let rows = table.iter().filter(move |row| row.causality == causality);
+        rows.filter(|row| matches!(row.kind, brinell::simulation::interface::table::Kind::Real { .. }))
+    };
+    use brinell::simulation::interface::table::{Causality, Kind};
+    let mut unknowns: Vec<(u32, String)> = of_table(Causality::Output)
+        .filter(|row| !skip(&row.name))
+        .map(|row| (row.reference, row.name.clone()))
+        .collect();
+    let derivatives = exchanged.iter().filter(|row| matches!(row.role, ExchangeRole::Derivative(_)));
+    unknowns.extend(derivatives.map(|row| (row.reference, row.name.clone())));
+    let references: Vec<u32> = unknowns.iter().map(|unknown| unknown.0).collect();
+    let read = |simulation: &mut Simulation| -> Vec<f64> {
+        let one = |&reference: &u32, simulation: &mut Simulation| match simulation.exchange_value(reference).unwrap() {
+            Some(value) => value,
+            None => {
+                let mut value = [0.0];
+                simulation.reals(&[reference], &mut value).unwrap();
+                value[0]
+            }
+        };
+        references.iter().map(|reference| one(reference, simulation)).collect()
+    };
+    let mut knowns: Vec<(u32, f64)> = of_table(Causality::Input)
+        .map(|row| (row.reference, if let Kind::Real { nominal, .. } = row.kind { nominal } else { 1.0 }))
+        .collect();
+    let of_states = exchanged.iter().filter(|row| matches!(row.role, ExchangeRole::State(_)));
+    knowns.extend(of_states.map(|row| (row.reference, row.nominal)));
+    let mut columns = Vec::new();
+    for &(known, nominal) in &knowns {
+        let mut exact = vec![0.0; references.len()];
+        simulation.exchange_derivative(&references, &[known], &[1.0], &mut exact).unwrap();
+        // A hundredth of the least approach of an element that hangs loose: 10 pm.
+        let by = 1e-6 * nominal * if nominal >= 1.0 && (known as usize) >= table.len() { 1e-3 } else { 1.0 };
+        let side = |sign: f64| {
+            let mut simulation = simulation.clone();
+            match simulation.exchange_role(known) {
+                Some(ExchangeRole::State(number)) => {
+                    let mut moved = states.clone();
+                    moved[number] += sign * by;
+                    simulation.set_continuous_states(&moved);
+                }
+                _ => {
+                    let mut value = [0.0];
+                    simulation.reals(&[known], &mut value).unwrap();
+                    simulation.set_reals(&[known], &[value[0] + sign * by]).unwrap();
+                }
+            }
+            read(&mut simulation)
+        };
+        let (high, low) = (side(1.0), side(-1.0));
+        let differences: Vec<f64> = high.iter().zip(&low).map(|(high, low)| (high - low) / (2.0 * by)).collect();
+        columns.push((nominal, exact, differences));
+    }
+    let mut worst = 0.0;
+    for (row, (_, name)) in unknowns.iter().enumerate() {
+        let largest = columns.iter().map(|(nominal, exact, _)| (nominal * exact[row]).abs()).fold(0.0, f64::max);
+        for ((nominal, exact, differences), (known, _)) in columns.iter().zip(&knowns) {
+            let error = (nominal * (exact[row] - differences[row])).abs() / largest.max(1e-300);
+            if largest > 0.0 && error > 1e-5 {
+                println!("{name} by {known}: {:e} and {:e}, largest {largest:e}", exact[row], differences[row]);
+            }
+            worst = if largest > 0.0 { f64::max(worst, error) } else { worst };
+        }
+    }
+    worst
+}
+
+#[test]
+fn the_jacobian_of_outputs_and_state_derivatives_is_that_of_differences() {
+    let left_out = |name: &str| name.contains("mean_force");
+    // In the spall, with sensor and both rings free; then with an inner defect, whose frames are states too; then
+    // hosted.
+    for (name, before) in [("er16k-tb1", 7e-3), ("er16k-inner", 2e-3), ("er16k-tb1-hosted-shaft", 7e-3)] {
+        let worst = worst_of_jacobian(shipped(name), before, left_out);
+        // Central differences over a share of an approach: its square, and rounding of forces over small changes.
+        assert!(worst < 1e-5, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn a_ring_that_the_host_integrates_swings_as_one_inside() {
+    // The same mass, once a state of the FMU and once of the host: no coupling error is left.
+    let (mass, damping) = (3.0, 1376.8);
+    let base = Scene { tolerance: 1e-11, ..shipped("6205-healthy") };
+    let ring = Ring { motion: Motion::Internal, load: [0.0, -1500.0], mass, damping, stiffness: 0.0 };
+    let mut inside = started(Scene { shaft: ring, ..base.clone() });
+    let start = [inside.get("shaft.x").unwrap(), inside.get("shaft.y").unwrap()];
+    inside.set("shaft.load.y", -1800.0).unwrap();
+    let hosted = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    let mut bearing = Simulation::new(Scene { shaft: hosted, ..base }, None).unwrap();
+    for (name, value) in [("shaft.x", start[0]), ("shaft.y", start[1])] {
+        bearing.set(name, value).unwrap();
+    }
+    bearing.initialize(0.0).unwrap();
+    let mut states = vec![0.0; bearing.continuous_state_count()];
+    bearing.continuous_states(&mut states).unwrap();
+    let count = states.len();
+    states.extend([start[0], start[1], 0.0, 0.0]);
+    let slope = |bearing: &mut Simulation, all: &[f64]| {
+        let mut slope = vec![0.0; all.len()];
+        bearing.set_continuous_states(&all[..count]);
+        for (name, value) in ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy"].iter().zip(&all[count..]) {
+            bearing.set(name, *value).unwrap();
+        }
+        bearing.state_derivatives(&mut slope[..count]).unwrap();
+        let force = ["shaft.force.x", "shaft.force.y"].map(|name| bearing.get(name).unwrap());
+        for axis in 0..2 {
+            slope[count + axis] = all[count + 2 + axis];
+            let load = [0.0, -1800.0][axis];
+            slope[count + 2 + axis] = (force[axis] + load - damping * all[count + 2 + axis]) / mass;
+        }
+        slope
+    };
+    let (h, grid, stop) = (1e-7, 1e-4, 3e-3);
+    let (mut apart, mut way) = (0.0f64, 0.0f64);
+    for _ in 0..(stop / grid) as usize {
+        inside.step(grid).unwrap();
+        for _ in 0..(grid / h).round() as usize {
+            let along = |slope: &[f64], by: f64| states.iter().zip(slope).map(|(x, k)| x + by * k).collect::<Vec<_>>();
+            let first = slope(&mut bearing, &states);
+            let second = slope(&mut bearing, &along(&first, 0.5 * h));
+            let third = slope(&mut bearing, &along(&second, 0.5 * h));
+            let fourth = slope(&mut bearing, &along(&third, h));
+            let mean: Vec<f64> =
+                (0..states.len()).map(|i| (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]) / 6.0).collect();
+            states = along(&mean, h);
+        }
+        apart = apart.max((states[count + 1] - inside.get("shaft.y").unwrap()).abs());
+        way = way.max((inside.get("shaft.y").unwrap() - start[1]).abs());
+    }
+    println!("{:.2e}", apart / way);
+    assert!(apart < 1e-7 * way, "{apart:e} of {way:e}");
+}
