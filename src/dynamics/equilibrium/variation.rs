@@ -9,7 +9,7 @@
 
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
-use crate::dynamics::derivatives::variation::{Going, Variation};
+use crate::dynamics::derivatives::{Going, Variation};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 

@@ -99,9 +99,8 @@ impl Space {
         let sense = bearing.axial_sense();
         Some(Box::new(Self {
             grooves: Groove::of(bearing),
-            shoulders: [(bearing.shoulder_inner, 0), (bearing.shoulder_outer, 1)].map(|(height, side)| {
-                height.map(|height| libm::acos(1.0 - height / bearing.groove_radii()[side]))
-            }),
+            shoulders: [(bearing.shoulder_inner, 0), (bearing.shoulder_outer, 1)]
+                .map(|(height, side)| height.map(|height| libm::acos(1.0 - height / bearing.groove_radii()[side]))),
             half_lengths: half_lengths(bearing),
             across_damping: scene.contact.damping_across(),
             gravity: scene.axial_gravity,

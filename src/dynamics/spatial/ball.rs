@@ -118,7 +118,12 @@ impl<T: Number> Ball<T> {
 
     /// Accelerations w' and w_z' (m/s²) under a force along e_r and z (N) of a ball of 1/mass (1/kg), with gravity.
     #[inline(always)]
-    pub(in crate::dynamics) fn accelerations(&self, [f_r, f_z]: [T; 2], per_mass: T::Plain, gravity: Spatial<T>) -> [T; 2] {
+    pub(in crate::dynamics) fn accelerations(
+        &self,
+        [f_r, f_z]: [T; 2],
+        per_mass: T::Plain,
+        gravity: Spatial<T>,
+    ) -> [T; 2] {
         let [g_r, _] = seen(self.e_r, gravity[0], gravity[1]);
         [f_r * per_mass + g_r + self.omega * (self.around + self.rho * self.omega), f_z * per_mass + gravity[2]]
     }

@@ -88,7 +88,6 @@ impl<T: Scalar> BallMotion<T> {
 impl Model {
     /// R_r and R_z (N) of a ball at u and v that keeps there, and its contacts; it feels the centrifugal force of
     /// `omega` (rad/s).
-    #[inline(always)]
     pub(in crate::dynamics) fn ball_residual<T: Scalar>(
         &self,
         space: &Space,

@@ -170,8 +170,10 @@ impl Model {
             let (of, part) = (&elastic.contacts[side], |base: Spatial<Moving<T>>, change: Spatial<T>| {
                 std::array::from_fn::<T, 3, _>(|i| base[i].value + change[i] * share)
             });
-            let on_ball =
-                OnBall { force: part(of.on_ball.force, change[side][0]), moment: part(of.on_ball.moment, change[side][1]) };
+            let on_ball = OnBall {
+                force: part(of.on_ball.force, change[side][0]),
+                moment: part(of.on_ball.moment, change[side][1]),
+            };
             let contact = &ball.places[side].contact;
             let [along, around] = [dot(on_ball.force, contact.normal), dot(on_ball.force, contact.around)];
             let magnitude = (along * along + around * around).sqrt();

@@ -9,6 +9,7 @@ mod ball_balance;
 mod ball_contacts;
 mod ball_in_balance;
 mod ball_lanes;
+mod ball_motion;
 mod right_hand_side;
 mod tangent;
 

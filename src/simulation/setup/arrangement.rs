@@ -206,7 +206,8 @@ pub fn largest_force(scene: &Scene) -> f64 {
         return force;
     }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| libm::hypot(f[0], f[1])).fold(0.0, f64::max);
-    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
+    let needed =
+        4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
         decade *= 10.0;

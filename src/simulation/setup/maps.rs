@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::tracks::{element_on_track, with_operating_angle};
 use super::arrangement::{arranged, largest_approach, largest_force, sides, softness_of_edges};
+use super::tracks::{element_on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::Resolution;
 use crate::contact::map::{ContactMap, ContactMaps, MapSpecification, Runner};

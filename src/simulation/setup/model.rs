@@ -32,7 +32,8 @@ fn near(
     if let Surface::Topography(_) = surface
         && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two
     {
-        return Err(SimulationError::TopographyInSpace { given: scene.bearing.degrees_of_freedom.count() });
+        let what = "a topography, which balls at a contact angle meet beside its middle row,";
+        return Err(SimulationError::NotInSpace { what, given: scene.bearing.degrees_of_freedom.count() });
     }
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => {
@@ -81,6 +82,10 @@ pub fn build_model(
 ) -> Result<Model, SimulationError> {
     if let Some(name) = unread(scene) {
         return Err(SurfaceError::no_crown(name).into());
+    }
+    if scene.film.is_some() && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
+        let given = scene.bearing.degrees_of_freedom.count();
+        return Err(SimulationError::NotInSpace { what: "the oil film, [film],", given });
     }
     if surfaces.is_empty() {
         return Ok(Model::smooth(scene));

@@ -19,7 +19,7 @@ use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::parameters::{Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
-use brinell::scene::{DegreesOfFreedom, DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
+use brinell::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, SurfaceError, with_roller_profile};

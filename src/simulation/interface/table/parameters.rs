@@ -234,7 +234,13 @@ impl Builder<'_> {
                 Limited { start: of.preload, min: 0.0, max: 1e9, nominal: 100.0 },
             ),
         ] {
-            self.parameter(&[name, ".", key].concat(), &[text, " of the ", what].concat(), Q::Parameter(parameter), unit, limited);
+            self.parameter(
+                &[name, ".", key].concat(),
+                &[text, " of the ", what].concat(),
+                Q::Parameter(parameter),
+                unit,
+                limited,
+            );
         }
     }
 
