@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
 use super::maps::{map_specification, prepared};
-use super::tracks::{defect_radius, element_on_track, rolling_on_track};
+use super::tracks::{defect_radius, element_on_track, on_track, rolling_on_track};
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
@@ -25,7 +25,7 @@ fn near(
     stored: Option<&Arc<ContactMaps>>,
     computed: &mut Vec<Arc<ContactMap>>,
 ) -> Result<NearDefect, SimulationError> {
-    let surface = &*spot.surface;
+    let surface = &*on_track(&spot.surface, &scene.bearing, spot.on);
     let bearer = defect_radius(&scene.bearing, spot.on);
     let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
     let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));

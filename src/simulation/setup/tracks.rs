@@ -2,7 +2,8 @@
 //!
 //! A track at α_n is a circle of radius R_c about its ring's axis, with the curvature cos α_n/R_c along rolling. So a
 //! raceway of the radius R_n = R_c/cos α_n stands for it, on which an angle d around the ring is d cos α_n: arcs are the
-//! same, R_c d = R_n d cos α_n.
+//! same, R_c d = R_n d cos α_n. A defect keeps the angles that it has at the groove's bottom, of radius R, so that its
+//! arcs on the track are R_c/R as long.
 
 use std::borrow::Cow;
 
@@ -11,6 +12,7 @@ use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Beyond, Excitation, Model, Quadratic};
 use crate::scene::{Bearing, DefectOn, DegreesOfFreedom, Motion, Scene};
+use crate::surface::Surface;
 
 /// Change of the operating angle below which it is that of the balance (rad): a thousandth of a degree.
 const SETTLED: f64 = 1.7e-5;
@@ -43,7 +45,17 @@ pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element:
     }
 }
 
-/// Radius of a body where its defects are (m).
+/// A surface as it is met on the track. A topography is not, and stays what it is.
+pub(super) fn on_track<'a>(surface: &'a Surface, bearing: &Bearing, on: DefectOn) -> Cow<'a, Surface> {
+    match surface {
+        Surface::Profile(profile) if angle_of(bearing) != 0.0 && !matches!(on, DefectOn::Element { .. }) => {
+            Cow::Owned(Surface::Profile(profile.stretched(defect_radius(bearing, on) / on.radius(bearing))))
+        }
+        _ => Cow::Borrowed(surface),
+    }
+}
+
+/// Radius of a body's track where its defects are (m).
 pub(super) fn defect_radius(bearing: &Bearing, on: DefectOn) -> f64 {
     match (on, angle_of(bearing)) {
         (_, 0.0) | (DefectOn::Element { .. }, _) => on.radius(bearing),
