@@ -104,17 +104,15 @@ impl Model {
     ) -> BallForces<T> {
         let mut contact = |side: RacewaySide| {
             let (law, cells) = (laws[side as usize], cells[side as usize]);
-            self.ball_contact(law, side, cells, at, ball, space.across_damping, shortcuts)
+            self.ball_contact((law, side), cells, at, ball, space.across_damping, shortcuts)
         };
         BallForces { ball: *ball, contacts: [contact(RacewaySide::Inner), contact(RacewaySide::Outer)] }
     }
 
-    #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     fn ball_contact<T: Scalar>(
         &self,
-        law: &CompliantContact,
-        side: RacewaySide,
+        (law, side): (&CompliantContact, RacewaySide),
         cells: [u32; 2],
         at: &BallMotion<T>,
         ball: &Ball<T>,

@@ -27,8 +27,8 @@ impl Model {
         let mut sums = if self.elements_in_balance() {
             self.balls_in_balance::<RECORD>(space, &rings, stage, derivative, forces)
         } else {
-            let (elements, contacts) = (&forces.elements, &mut forces.contacts);
-            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, elements, contacts)
+            let kept = (&*forces.elements, &mut forces.contacts);
+            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, kept)
         };
         if !forces.searched.is_empty() && !self.elements_in_balance() {
             forces.frames = excitation.frames_at(cage.tau);
