@@ -31,6 +31,9 @@ pub enum SimulationError {
         /// The law.
         law: ContactLaw,
     },
+    /// The balls' gyroscopic couple where the outer ring turns.
+    #[error("bearing.gyroscopic is of an outer ring that stands: leave it out, or housing.speed_hz")]
+    CoupleOfTurningHousing,
     /// What is modelled only of rings that stay in their plane.
     #[error("{what} is modelled with bearing.degrees_of_freedom = 2 only, not with {given}")]
     NotInSpace {

@@ -99,7 +99,8 @@ impl Model {
     ) -> ([T; 2], BallForces<T>) {
         let none = T::from(0.0);
         let ball = at.ball_moving(self, space, place, [none; 2]);
-        let found = self.ball_forces(space, cells, at, &ball, shortcuts);
+        let mut found = self.ball_forces(space, cells, at, &ball, shortcuts);
+        self.add_couple(space, omega, &mut found);
         let ([f_r, _, f_z], mass) = (found.force(), T::Plain::from(self.element_mass));
         let [g_x, g_y, g_z] = [self.gravity.x, self.gravity.y, space.gravity].map(T::Plain::from);
         let body = at.e_r[0] * g_x + at.e_r[1] * g_y + ball.rho * omega * omega;

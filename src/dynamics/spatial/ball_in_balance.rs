@@ -141,7 +141,8 @@ impl Model {
         let ball = at.ball_moving(self, space, place, rates);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let laws = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
+        let mut damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
+        self.add_couple(space, at.omega, &mut damped);
         let plain = |of: Spatial<Moving<T>>| of.map(|part| part.value);
         let [f_r, _, f_z] = [0, 1, 2].map(|i: usize| {
             let [inner, outer] = [0, 1].map(|side: usize| {

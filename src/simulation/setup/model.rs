@@ -11,7 +11,7 @@ use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Frame, Model, WholeAngle};
-use crate::scene::{ContactLaw, DefectOn, DegreesOfFreedom, Scene};
+use crate::scene::{ContactLaw, DefectOn, DegreesOfFreedom, Gyroscopic, Scene};
 use crate::simulation::SimulationError;
 use crate::surface::roller_profile::unread;
 use crate::surface::{Surface, SurfaceError};
@@ -86,6 +86,9 @@ pub fn build_model(
     if scene.film.is_some() && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
         let given = scene.bearing.degrees_of_freedom.count();
         return Err(SimulationError::NotInSpace { what: "the oil film, [film],", given });
+    }
+    if scene.bearing.gyroscopic != Gyroscopic::None && scene.housing_speed.is_some() {
+        return Err(SimulationError::CoupleOfTurningHousing);
     }
     if surfaces.is_empty() {
         return Ok(Model::smooth(scene));
