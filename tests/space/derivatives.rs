@@ -6,7 +6,8 @@ use brinell::dynamics::derivatives::Jacobian;
 use brinell::scene::{ContactLaw, Damping, Sensor};
 use std::f64::consts::{PI, TAU};
 
-/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its loads.
+/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its
+/// loads.
 fn moving(bearing: Bearing) -> Simulation {
     let mut sensor = Sensor::default();
     sensor.set_direction([0.6, 0.64, 0.48]);

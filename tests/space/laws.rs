@@ -300,3 +300,32 @@ fn rings_pushed_beyond_their_grooves_stop_the_step_with_the_reason() {
     assert!(refused.contains("along z -4.000e-4 m") && refused.contains("3.176e-4 m"), "{refused}");
     assert!(simulation.set("shaft.tilt.x", 0.06).unwrap_err().to_string().contains("0.05"));
 }
+
+#[test]
+fn under_every_law_a_ball_over_a_line_spall_carries_about_the_same() {
+    let of = |law| {
+        let bearing = Bearing { operating_angle: Some(15f64.to_radians()), ..b6205(8e-6) };
+        let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Three).cage(0.0, -0.5 * PI + 0.01);
+        let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).spall(-0.5 * PI, 0.5e-3, 50e-6).law(law);
+        let scene = scene.contact_cells([24, 12]).map_accuracy(0.05).largest_force(600.0);
+        let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+        for (name, value) in [("shaft.y", -3e-6), ("shaft.z", 95e-6)] {
+            simulation.set(name, value).unwrap();
+        }
+        simulation.initialize(0.0).unwrap();
+        let names =
+            ["element[1].force.outer", "element[1].contact_angle.outer", "shaft.force.z", "element[5].force.outer"];
+        values(&mut simulation, names)
+    };
+    let [hertz, map, love] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love].map(of);
+    for (map, love) in map.into_iter().zip(love) {
+        // The map's own accuracy, of the largest force.
+        assert!((map - love).abs() < 0.05 * 600.0 && (map / love - 1.0).abs() < 0.02, "{map} {love}");
+    }
+    // The rigid ball's contact at an edge is a sixth too stiff at most.
+    for (rigid, love) in hertz.into_iter().zip(love) {
+        assert!((rigid / love - 1.0).abs() < 0.2, "{rigid} {love}");
+    }
+    let smooth = love[3];
+    assert!(love[0] < 0.9 * smooth, "{love:?}");
+}

@@ -1,8 +1,8 @@
 //! The Jacobian of the right-hand side in space, damping included, and its derivative by time.
 //!
-//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w, w_z)
-//! and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states, the
-//! rings' positions and velocities, and time.
+//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w,
+//! w_z) and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states,
+//! the rings' positions and velocities, and time.
 
 use super::fastest::{BodyIndices, Fastest};
 use crate::contact::groove::Spatial;
@@ -94,8 +94,8 @@ impl SpatialJacobian {
         }
     }
 
-    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its damping
-    /// are largest along, and each body.
+    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its
+    /// damping are largest along, and each body.
     pub(super) fn fastest(&self) -> Fastest {
         let mut fastest = Fastest::default();
         for block in &self.balls {

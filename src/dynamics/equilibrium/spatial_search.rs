@@ -1,6 +1,6 @@
-//! The static equilibrium in space: each ball's balance is solved inside, then that of the free rings by Newton's method
-//! on the tangent with the balls in balance, as in the plane ([`super::search`]). Tilts count as lengths at the pitch
-//! radius, moments as forces there.
+//! The static equilibrium in space: each ball's balance is solved inside, then that of the free rings by Newton's
+//! method on the tangent with the balls in balance, as in the plane ([`super::search`]). Tilts count as lengths at the
+//! pitch radius, moments as forces there.
 //!
 //! The search begins where the bearing is about closed along the axis, in the sense of the axial load.
 

@@ -6,9 +6,9 @@
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
 //!
-//! In space the two lists of the elements are `[u… v…]` and `[w… w_z…]`, with the axial position v and velocity w_z, and
-//! a ring has eight slots more, `z, tilt about x, about y, –` and their rates. Where there is the plane, it is laid out
-//! the same.
+//! In space the two lists of the elements are `[u… v…]` and `[w… w_z…]`, with the axial position v and velocity w_z,
+//! and a ring has eight slots more, `z, tilt about x, about y, –` and their rates. Where there is the plane, it is laid
+//! out the same.
 
 use crate::numerics::lanes::{Partition, QUAD, padded};
 use crate::scene::{DegreesOfFreedom, ElementInertia, Motion, Scene};

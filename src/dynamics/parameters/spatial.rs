@@ -44,7 +44,8 @@ pub struct Space {
     pub grooves: [Groove; 2],
     /// Angles (rad) from the bottoms of the grooves to their shoulders, where the scene has them.
     pub shoulders: [Option<f64>; 2],
-    /// Half-lengths of the contact ellipses across the grooves under 1 N (m), which grow with the cube root of the force.
+    /// Half-lengths of the contact ellipses across the grooves under 1 N (m), which grow with the cube root of the
+    /// force.
     pub half_lengths: [f64; 2],
     /// Damping of balls across the grooves χ_a (s/m).
     pub across_damping: f64,

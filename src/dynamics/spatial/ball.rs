@@ -149,7 +149,8 @@ impl<T: Number> Place<T> {
         self.contact.closing(self.velocity)
     }
 
-    /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius (m).
+    /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius
+    /// (m).
     pub(super) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
         let across = self.contact.across.map(|part| part * force);
         let point = std::array::from_fn(|i| self.q[i] - self.contact.normal[i] * radius);

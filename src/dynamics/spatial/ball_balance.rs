@@ -4,9 +4,9 @@
 //! ```text
 //! R_r = F·e_r + m (g·e_r + ρ ω²) = 0     R_z = F_z + m g_z = 0
 //! ```
-//! *There is one balance.* At rest both contacts' energies are convex in (u, v), as a distance from a point is; that the
-//! grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth, of
-//! the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
+//! *There is one balance.* At rest both contacts' energies are convex in (u, v), as a distance from a point is; that
+//! the grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth,
+//! of the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
 //! searches for a zero of a falling function, one within the other, find it from anywhere. A ball that nothing touches
 //! or moves rests against the outer groove without force where it is.
 //!

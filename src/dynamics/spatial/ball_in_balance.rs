@@ -1,7 +1,7 @@
 //! Balls without inertia: in balance between both grooves at every instant.
 //!
-//! With the elastic residual R(b, t) of a ball at b = (u, v), its place and velocity follow from where the rings are and
-//! how they move, as in the plane (`quasi_static::element_balance`):
+//! With the elastic residual R(b, t) of a ball at b = (u, v), its place and velocity follow from where the rings are
+//! and how they move, as in the plane (`quasi_static::element_balance`):
 //! ```text
 //! R(b, t) = 0     b' = −R_b⁻¹ R_t
 //! ```
@@ -116,7 +116,8 @@ impl Model {
         self.balanced_ball(space, cells, guess, &standing, at.omega, shortcuts).at
     }
 
-    /// A ball in balance, looked for from `guess` on; `alpha` is its acceleration about the outer ring's centre (rad/s²).
+    /// A ball in balance, looked for from `guess` on; `alpha` is its acceleration about the outer ring's centre
+    /// (rad/s²).
     pub(in crate::dynamics) fn ball_in_balance<T: Scalar>(
         &self,
         space: &Space,

@@ -1,13 +1,13 @@
-//! The couple that turns the spin axis of a ball with the cage, held by the contacts' friction: of balls without inertia
-//! only, as nothing here says who would hold it in motion.
+//! The couple that turns the spin axis of a ball with the cage, held by the contacts' friction: of balls without
+//! inertia only, as nothing here says who would hold it in motion.
 //!
 //! ```text
 //! M_g = 2/5 m r² ω_R ω_c sin β     tan β = sin α_o/(cos α_o + γ')     γ' = D/D_pw
 //! ω_R = ω_i/{[(cos α_o + tan β sin α_o)/(1 + γ' cos α_o) + (cos α_i + tan β sin α_i)/(1 − γ' cos α_i)] γ' cos β}
 //! ```
 //! with the ball's angular momentum H = 2/5 m r² ω_R about an axis at β, dH/dt = ω_c ẑ × H (Jones 1959; signs by that
-//! equation). A contact holds the share λ/2 of it by λ M_g/D across the groove, at the point where it touches. The outer
-//! ring stands.
+//! equation). A contact holds the share λ/2 of it by λ M_g/D across the groove, at the point where it touches. The
+//! outer ring stands.
 
 use super::ball::{Ball, OnBall};
 use super::ball_contacts::BallForces;

@@ -51,8 +51,8 @@ pub enum StaticError {
     },
     /// Rings that move along the axis or tilt.
     #[error(
-        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of rings in \
-         space is among the outputs of a run (shaft.stiffness.zz and its like)"
+        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of \
+         rings in space is among the outputs of a run (shaft.stiffness.zz and its like)"
     )]
     InSpace {
         /// Degrees of freedom.
