@@ -189,3 +189,21 @@ fn the_bearing_of_iso_16281_stands_where_the_exact_geometry_says() {
     printed(&values(&mut all, names), 1e-6, &["19.8367162", "-2.7048803", "146.2668652"]);
     printed(&values(&mut all, ["shaft.tilt.x", "shaft.tilt.y"]), 1e-3, &["0.4969156", "2.7061463"]);
 }
+
+#[test]
+fn a_gyroscopic_couple_turns_the_contact_angles_as_printed() {
+    use brinell::scene::{Damping, ElementInertia, Gyroscopic};
+    let table = [
+        (Gyroscopic::Outer, ["33.218716", "21.858813"], "6.934069"),
+        (Gyroscopic::Shared, ["31.685681", "23.143992"], "8.360800"),
+    ];
+    for (gyroscopic, angles, z) in table {
+        let bearing = Bearing { gyroscopic, element_inertia: ElementInertia::None, ..angular(25.0) };
+        let scene = free_shaft(bearing, DegreesOfFreedom::Three).gravity([0.0; 2]).axial_load(500.0);
+        let scene = scene.damping(Damping::HuntCrossley(0.0)).shaft_speed(20_000.0 * PI / 30.0);
+        let mut found = started(scene.build().unwrap());
+        let named = ["element[1].contact_angle.inner", "element[1].contact_angle.outer"];
+        printed(&values(&mut found, named), PI / 180.0, &angles);
+        printed(&values(&mut found, ["shaft.z"]), 1e-6, &[z]);
+    }
+}

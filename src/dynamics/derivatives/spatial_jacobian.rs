@@ -1,10 +1,10 @@
 //! The Jacobian of the right-hand side in space, damping included, and its derivative by time.
 //!
-//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w, w_z)
-//! and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states, the
-//! rings' positions and velocities, and time.
+//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w,
+//! w_z) and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states,
+//! the rings' positions and velocities, and time.
 
-use super::jacobian::{BodyIndices, Fastest, consider};
+use super::fastest::{BodyIndices, Fastest};
 use crate::contact::groove::Spatial;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
@@ -94,8 +94,8 @@ impl SpatialJacobian {
         }
     }
 
-    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its damping
-    /// are largest along, and each body.
+    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its
+    /// damping are largest along, and each body.
     pub(super) fn fastest(&self) -> Fastest {
         let mut fastest = Fastest::default();
         for block in &self.balls {
@@ -103,12 +103,12 @@ impl SpatialJacobian {
             let (stiff, damped) = (part(0), part(2));
             for along in [principal(stiff), principal(damped)] {
                 for n in [along, [-along[1], along[0]]] {
-                    consider(&mut fastest, form(stiff, n), form(damped, n));
+                    fastest.consider(form(stiff, n), form(damped, n));
                 }
             }
         }
         for i in (0..SPATIAL_BODIES).filter(|&i| self.body_indices[i].is_some()) {
-            consider(&mut fastest, self.by_own_position(i), self.by_velocity[i][i]);
+            fastest.consider(self.by_own_position(i), self.by_velocity[i][i]);
         }
         fastest
     }

@@ -2,6 +2,7 @@
 
 mod element;
 mod error;
+mod limits;
 mod resting;
 pub mod search;
 mod spatial_search;

@@ -149,6 +149,14 @@ impl<T: Number> Place<T> {
         self.contact.closing(self.velocity)
     }
 
+    /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius
+    /// (m).
+    pub(super) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
+        let across = self.contact.across.map(|part| part * force);
+        let point = std::array::from_fn(|i| self.q[i] - self.contact.normal[i] * radius);
+        OnBall { force: across, moment: cross(across, point) }
+    }
+
     /// What a contact exerts with these forces along the normal and around the ring (N), its magnitude damped across
     /// the groove.
     #[inline(always)]
