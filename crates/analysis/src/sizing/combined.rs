@@ -64,31 +64,38 @@ pub(super) fn of_one_fault(sized: &[Sized]) -> Result<(), String> {
     Ok(())
 }
 
+/// Onsets of one spall of the inner raceway that are at different angles.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "the onset wanders by {onset:.2} degrees from recording to recording, limit {limit:.2}, the impacts by \
+     {impacts:.2}: it is not the spall's entry, and the length is at least that from first to last impact, \
+     {at_least:.2} degrees"
+)]
+pub(super) struct Wandering {
+    onset: f64,
+    limit: f64,
+    impacts: f64,
+    /// From first to last impact, the least of all recordings (degrees).
+    pub(super) at_least: f64,
+}
+
 /// Whether the events of recordings of one spall of the inner raceway begin at one angle.
-pub(super) fn steady_onset(sized: &[Sized]) -> Result<(), String> {
+pub(super) fn steady_onset(sized: &[Sized]) -> Result<(), Wandering> {
     let inner = sized.iter().filter(|s| s.measured.raceway == Raceway::Inner && s.length.is_ok());
     steady(&inner.filter_map(|s| s.events.as_ref()).collect::<Vec<_>>())
 }
 
 /// The onset before the first impact is an angle: on the inner raceway, where little is seen of an entry, one that
 /// wanders from speed to speed is not the spall's, however well the lengths agree.
-fn steady(events: &[&EventLength]) -> Result<(), String> {
-    let range = |of: &dyn Fn(&EventLength) -> f64| {
-        let all = events.iter().map(|e| of(e));
-        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
-    };
-    let span = |e: &EventLength| e.impacts.last().copied().unwrap_or(0.0);
+fn steady(events: &[&EventLength]) -> Result<(), Wandering> {
     let least = |of: &dyn Fn(&EventLength) -> f64| events.iter().map(|e| of(e)).fold(f64::INFINITY, f64::min);
+    let range = |of: &dyn Fn(&EventLength) -> f64| -least(&|e| -of(e)) - least(of);
+    let span = |e: &EventLength| e.impacts.last().copied().unwrap_or(0.0);
     let (onset, limit) = (range(&|e| e.onset), WANDERS * least(&|e| e.length));
     if events.len() < 2 || onset <= limit {
         return Ok(());
     }
-    Err(format!(
-        "the onset wanders by {onset:.2} degrees from recording to recording, limit {limit:.2}, the impacts by {:.2}: \
-         it is not the spall's entry, and the length is at least that from first to last impact, {:.2} degrees",
-        range(&span),
-        least(&span)
-    ))
+    Err(Wandering { onset, limit, impacts: range(&span), at_least: least(&span) })
 }
 
 /// What was cut off, in words.
@@ -163,7 +170,9 @@ mod tests {
         };
         assert_eq!(steady(&[&of(-1.30, 3.55), &of(-1.42, 3.52), &of(-1.25, 3.57)]), Ok(()));
         let refused = steady(&[&of(-1.16, 4.10), &of(-1.66, 4.10)]).unwrap_err();
-        assert!(refused.contains("wanders by 0.50") && refused.contains("4.10 degrees"), "{refused}");
+        assert_eq!(refused.at_least, 4.10);
+        let why = refused.to_string();
+        assert!(why.contains("wanders by 0.50") && why.contains("4.10 degrees"), "{why}");
         assert_eq!(steady(&[&of(-1.16, 4.10)]), Ok(()));
     }
 }

@@ -131,10 +131,14 @@ impl Sized {
         }
     }
 
-    /// From first to last impact (degrees), where that is all that is known of the length.
+    /// From first to last impact (degrees), where that is all that is known of the length: no entry is seen, or where
+    /// it is depends on the passages that are averaged.
     pub(super) fn at_least(&self) -> Option<f64> {
         match &self.length {
             Err(Unresolved::NoEntry(span, ..)) => Some(*span),
+            Err(Unresolved::Halves(..) | Unresolved::TooUncertain(..)) => {
+                event_length::impacts(&self.measured).last().copied().filter(|&span| span > 0.0)
+            }
             _ => None,
         }
     }

@@ -92,8 +92,9 @@ pub fn size_with(
         figures: sized.iter().map(|s| s.figure(scene)).collect(),
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
+    let onset = combined::steady_onset(&sized);
     match combined::of_one_fault(&sized)
-        .and_then(|()| combined::steady_onset(&sized))
+        .and_then(|()| onset.as_ref().map_err(ToString::to_string).copied())
         .and_then(|()| combined::combine(&lengths, sized.len()))
     {
         Err(why) => {
@@ -101,7 +102,8 @@ pub fn size_with(
                 sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
             report.reason =
                 std::iter::once(why).chain(each).chain(combined::cuts(&sized)).collect::<Vec<_>>().join("; ");
-            report.at_least_deg = sized.iter().filter_map(Sized::at_least).reduce(f64::max);
+            let at_least = onset.err().map(|wandering| wandering.at_least);
+            report.at_least_deg = at_least.into_iter().chain(sized.iter().filter_map(Sized::at_least)).reduce(f64::max);
         }
         Ok(Combined { length, uncertainty }) => {
             let mm_per_degree = 1e3 * Raceway::of(report.fault).radius(&scene.bearing) * 1f64.to_radians();
