@@ -23,6 +23,8 @@ const ERROR: &str = "python examples/coupling_error.py --short";
 const SWEEP: &str = "python examples/sweep.py examples/sweep.toml -o target/labelled";
 const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
 const SYSTEM: &str = "python examples/system_of_fmus.py --short";
+const PAIR: &str = "python examples/pair_of_bearings.py --build";
+const PAIRS: &str = "python examples/pair_of_bearings.py --short";
 /// What this file's environment or another test does.
 const SET_UP: [&str; 6] = [
     "python3 -m venv target/examples-env",
@@ -119,7 +121,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM];
+    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM, PAIR, PAIRS];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {
