@@ -143,7 +143,13 @@ impl<T: Number> GrooveContact<T> {
     /// Force on the ball (N) of a contact that exerts `force` (N) along the normal and `tangential` around the ring,
     /// its `magnitude` damped across the groove with `damping` χ_a (s/m): F_t = −χ_a Q (t·v) t.
     #[inline(always)]
-    pub fn force(&self, [force, tangential]: [T; 2], magnitude: T, damping: T::Plain, velocity: Spatial<T>) -> Spatial<T> {
+    pub fn force(
+        &self,
+        [force, tangential]: [T; 2],
+        magnitude: T,
+        damping: T::Plain,
+        velocity: Spatial<T>,
+    ) -> Spatial<T> {
         let creep = magnitude * dot(self.across, velocity) * damping;
         minus(plus(times(self.normal, force), times(self.around, tangential)), times(self.across, creep))
     }

@@ -31,12 +31,14 @@ pub enum SimulationError {
         /// The law.
         law: ContactLaw,
     },
-    /// A topography under balls that run beside its middle row.
-    #[error(
-        "bearing.degrees_of_freedom = {given}: a topography is met beside its middle row, which is not modelled; take \
-         one profile along the track, or 2 degrees of freedom"
-    )]
-    TopographyInSpace {
+    /// The balls' gyroscopic couple where the outer ring turns.
+    #[error("bearing.gyroscopic is of an outer ring that stands: leave it out, or housing.speed_hz")]
+    CoupleOfTurningHousing,
+    /// What is modelled only of rings that stay in their plane.
+    #[error("{what} is modelled with bearing.degrees_of_freedom = 2 only, not with {given}")]
+    NotInSpace {
+        /// What was asked for.
+        what: &'static str,
         /// Degrees of freedom.
         given: usize,
     },

@@ -95,8 +95,8 @@ pub enum StepError {
     },
     /// The rings are further apart along the axis than their grooves reach.
     #[error(
-        "distance of the rings along z {apart:.3e} m (limit: that of the grooves' centres, {limit:.3e} m) {since:.6e} s \
-         into the communication step; check prescribed positions, axial loads and axial stiffness"
+        "distance of the rings along z {apart:.3e} m (limit: that of the grooves' centres, {limit:.3e} m) \
+         {since:.6e} s into the communication step; check prescribed positions, axial loads and axial stiffness"
     )]
     RingsApartAxially {
         /// z of the outer ring less that of the inner (m).

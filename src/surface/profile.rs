@@ -43,6 +43,12 @@ impl Profile {
         Self { points, sampled: false }
     }
 
+    /// The same depths over arcs of another length.
+    pub(crate) fn stretched(&self, share: f64) -> Self {
+        let points = self.points.iter().map(|&(arc, depth)| (arc * share, depth)).collect();
+        Self { points, ..*self }
+    }
+
     /// A polygon through arcs and depths (m), arcs not descending.
     ///
     /// # Errors

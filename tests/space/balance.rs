@@ -11,14 +11,30 @@ const STIFFNESS: [&str; 4] =
 fn a_6205_under_thrust_stands_where_the_closed_form_says() {
     // sin α (cos α°/cos α − 1)^(3/2) = F_a/(Z K A^(3/2)), to the printed digits.
     let table = [
-        (5e-6, 100.0, ["71.4933267", "12.8822995", "49.837015"], ["1.22180161e7", "1.04110770e8", "2.36084043e3", "-4.65359306e5"]),
-        (5e-6, 1000.0, ["102.5763280", "18.1666934", "356.373633"], ["4.98270429e7", "1.90903019e8", "9.61543129e3", "-1.20110598e6"]),
-        (10e-6, 1000.0, ["114.3944804", "20.3998471", "318.763105"], ["5.70862695e7", "1.79077401e8", "1.10213806e4", "-1.27825119e6"]),
+        (
+            5e-6,
+            100.0,
+            ["71.4933267", "12.8822995", "49.837015"],
+            ["1.22180161e7", "1.04110770e8", "2.36084043e3", "-4.65359306e5"],
+        ),
+        (
+            5e-6,
+            1000.0,
+            ["102.5763280", "18.1666934", "356.373633"],
+            ["4.98270429e7", "1.90903019e8", "9.61543129e3", "-1.20110598e6"],
+        ),
+        (
+            10e-6,
+            1000.0,
+            ["114.3944804", "20.3998471", "318.763105"],
+            ["5.70862695e7", "1.79077401e8", "1.10213806e4", "-1.27825119e6"],
+        ),
     ];
     for (clearance, thrust, place, stiffness) in table {
         let scene = free_shaft(b6205(clearance), DegreesOfFreedom::Five).gravity([0.0; 2]).axial_load(thrust);
         let mut found = started(scene.build().unwrap());
-        let [z, angle, force] = values(&mut found, ["shaft.z", "element[1].contact_angle.inner", "element[1].force.inner"]);
+        let [z, angle, force] =
+            values(&mut found, ["shaft.z", "element[1].contact_angle.inner", "element[1].force.inner"]);
         printed(&[z * 1e6, angle.to_degrees(), force], 1.0, &place);
         printed(&values(&mut found, STIFFNESS), 1.0, &stiffness);
     }
@@ -102,8 +118,20 @@ fn an_angular_contact_bearing_pushes_its_hosted_ring_as_printed() {
 fn centrifugal_force_parts_the_contact_angles_as_printed() {
     let table = [
         (0.0, ["26.7033223", "26.7033223"], ["92.722239", "92.722239"], "10.5648158", ["7.5908782e7", "1.4487564e8"]),
-        (20_000.0, ["31.5225006", "23.3651684"], ["79.693970", "105.062352"], "8.8450351", ["5.1934896e7", "9.5263534e7"]),
-        (40_000.0, ["40.3704019", "14.3283865"], ["64.327571", "168.364407"], "-5.9481354", ["2.0269669e7", "2.5465961e7"]),
+        (
+            20_000.0,
+            ["31.5225006", "23.3651684"],
+            ["79.693970", "105.062352"],
+            "8.8450351",
+            ["5.1934896e7", "9.5263534e7"],
+        ),
+        (
+            40_000.0,
+            ["40.3704019", "14.3283865"],
+            ["64.327571", "168.364407"],
+            "-5.9481354",
+            ["2.0269669e7", "2.5465961e7"],
+        ),
     ];
     for (speed, angles, forces, z, stiffness) in table {
         let scene = free_shaft(angular(25.0), DegreesOfFreedom::Five).gravity([0.0; 2]).axial_load(500.0);
@@ -120,7 +148,8 @@ fn centrifugal_force_parts_the_contact_angles_as_printed() {
     let scene = scene.shaft_load([0.0, -100.0]).shaft_speed(20_000.0 * PI / 30.0).cage(0.0, -0.5 * PI);
     let mut found = started(scene.build().unwrap());
     printed(&values(&mut found, ["shaft.y", "shaft.z"]), 1e-6, &["-1.0635411", "8.7216554"]);
-    let forces = ["element[1].force.inner", "element[1].force.outer", "element[7].force.inner", "element[7].force.outer"];
+    let forces =
+        ["element[1].force.inner", "element[1].force.outer", "element[7].force.inner", "element[7].force.outer"];
     printed(&values(&mut found, forces), 1.0, &["99.619552", "125.033090", "62.479754", "87.811246"]);
 }
 
@@ -159,4 +188,22 @@ fn the_bearing_of_iso_16281_stands_where_the_exact_geometry_says() {
     let mut all = of(5e-6, [1000.0, 0.0, 1000.0], [1.0, 0.0], DegreesOfFreedom::Five);
     printed(&values(&mut all, names), 1e-6, &["19.8367162", "-2.7048803", "146.2668652"]);
     printed(&values(&mut all, ["shaft.tilt.x", "shaft.tilt.y"]), 1e-3, &["0.4969156", "2.7061463"]);
+}
+
+#[test]
+fn a_gyroscopic_couple_turns_the_contact_angles_as_printed() {
+    use brinell::scene::{Damping, ElementInertia, Gyroscopic};
+    let table = [
+        (Gyroscopic::Outer, ["33.218716", "21.858813"], "6.934069"),
+        (Gyroscopic::Shared, ["31.685681", "23.143992"], "8.360800"),
+    ];
+    for (gyroscopic, angles, z) in table {
+        let bearing = Bearing { gyroscopic, element_inertia: ElementInertia::None, ..angular(25.0) };
+        let scene = free_shaft(bearing, DegreesOfFreedom::Three).gravity([0.0; 2]).axial_load(500.0);
+        let scene = scene.damping(Damping::HuntCrossley(0.0)).shaft_speed(20_000.0 * PI / 30.0);
+        let mut found = started(scene.build().unwrap());
+        let named = ["element[1].contact_angle.inner", "element[1].contact_angle.outer"];
+        printed(&values(&mut found, named), PI / 180.0, &angles);
+        printed(&values(&mut found, ["shaft.z"]), 1e-6, &[z]);
+    }
 }

@@ -6,7 +6,8 @@ use brinell::dynamics::derivatives::Jacobian;
 use brinell::scene::{ContactLaw, Damping, Sensor};
 use std::f64::consts::{PI, TAU};
 
-/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its loads.
+/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its
+/// loads.
 fn moving(bearing: Bearing) -> Simulation {
     let mut sensor = Sensor::default();
     sensor.set_direction([0.6, 0.64, 0.48]);
@@ -129,7 +130,11 @@ fn what_a_host_moves_changes_outputs_by_the_directional_derivative() {
                 let size = (above[k].abs() + below[k].abs()) / 2.0;
                 // Second order of the step, and roundings of the values over it.
                 let limit = 1e-4 * quotient.abs().max(exact[k].abs()) + 1e-10 * size / h;
-                assert!((quotient - exact[k]).abs() <= limit, "{started} {output} by {name}: {:e} {quotient:e}", exact[k]);
+                assert!(
+                    (quotient - exact[k]).abs() <= limit,
+                    "{started} {output} by {name}: {:e} {quotient:e}",
+                    exact[k]
+                );
             }
         }
     }
@@ -142,7 +147,9 @@ fn loads_move_the_balance_by_the_directional_derivative() {
     let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
     let names = ["shaft.y", "shaft.z", "shaft.tilt.x", "element[2].path", "element[2].axial", "element[2].force.inner"];
     let outputs = names.map(|name| simulation.reference(name).unwrap());
-    for (name, value, h) in [("shaft.load.z", 350.0, 1e-2), ("shaft.load_moment.y", 0.1, 1e-4), ("shaft.load.x", 0.0, 1e-2)] {
+    for (name, value, h) in
+        [("shaft.load.z", 350.0, 1e-2), ("shaft.load_moment.y", 0.1, 1e-4), ("shaft.load.x", 0.0, 1e-2)]
+    {
         simulation.set(name, value).unwrap();
         let input = simulation.reference(name).unwrap();
         let mut exact = [0.0; 6];

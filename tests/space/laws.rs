@@ -1,7 +1,7 @@
 //! What must hold whatever the figures are: energy, mirror, turning by one pitch, the plane, states put back.
 
 use super::*;
-use brinell::scene::{ContactLaw, Damping};
+use brinell::scene::{ContactLaw, Damping, ElementInertia};
 use brinell::simulation::Method;
 use std::f64::consts::{PI, TAU};
 
@@ -15,8 +15,9 @@ fn lively(bearing: Bearing) -> SceneBuilder {
 fn energy_is_what_the_cage_has_put_in() {
     let mut shaft = Ring { damping: 0.0, ..Ring::default_shaft() };
     shaft.axial.damping = 0.0;
-    let mut scene = lively(b6205(8e-6)).shaft(shaft).damping(Damping::HuntCrossley(0.0)).build().unwrap();
-    (scene.shaft.load, scene.shaft.axial.load, scene.contact.across_damping) = ([0.0, -300.0], 250.0, Some(0.0));
+    let scene = lively(b6205(8e-6)).shaft(shaft).shaft_load([0.0, -300.0]).axial_load(250.0);
+    let mut scene = scene.damping(Damping::HuntCrossley(0.0)).build().unwrap();
+    scene.contact.across_damping = Some(0.0);
     let mass = scene.shaft.mass;
     let mut simulation = started(scene);
     let energy = |simulation: &mut Simulation, loads: [f64; 3]| {
@@ -30,8 +31,7 @@ fn energy_is_what_the_cage_has_put_in() {
         let (m, ball) = (model.element_mass, model.outer_centre_radius);
         let laws = [&model.inner, &model.outer].map(|raceway| raceway.contact.law.stiffness);
         let (state, layout) = (simulation.state_vector(), &model.layout);
-        let [v_start, w_z] = layout.axial().unwrap();
-        let _ = v_start;
+        let [_, w_z] = layout.axial().unwrap();
         let mut sum = 0.5 * mass * v.iter().map(|v| v * v).sum::<f64>();
         sum -= loads.iter().zip(x).map(|(load, x)| load * x).sum::<f64>();
         for (j, angle) in angles.iter().enumerate() {
@@ -59,9 +59,8 @@ fn energy_is_what_the_cage_has_put_in() {
     };
     // Simpson's rule over half microseconds: the fastest vibration turns by 0.2 rad in one.
     let (h, count) = (0.5e-6, 1000);
-    let power = |simulation: &mut Simulation| {
-        simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap()
-    };
+    let power =
+        |simulation: &mut Simulation| simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap();
     let (mut work, mut most) = (0.0, 0.0f64);
     let mut before = power(&mut simulation);
     for _ in 0..count {
@@ -192,9 +191,10 @@ fn a_state_put_back_goes_on_with_the_same_bits() {
     simulation.step(1e-3).unwrap();
     let bytes = simulation.save().to_bytes();
     assert_eq!(bytes.len(), simulation.save().byte_count());
-    let names = ["shaft.x", "shaft.z", "shaft.tilt.x", "element[3].axial", "element[3].force.outer", "shaft.mean_force.z"];
+    let names =
+        ["shaft.x", "shaft.z", "shaft.tilt.x", "element[3].axial", "element[3].force.outer", "shaft.mean_force.z"];
     let names: Vec<&str> = names.into_iter().filter(|name| simulation.reference(name).is_ok()).collect();
-    let mut go_on = |simulation: &mut Simulation| {
+    let go_on = |simulation: &mut Simulation| {
         simulation.step(1e-3).unwrap();
         names.iter().map(|name| simulation.get(name).unwrap().to_bits()).collect::<Vec<_>>()
     };
@@ -218,4 +218,114 @@ fn the_operating_angle_is_that_of_the_balance_and_moves_the_cage() {
     shaft.axial.stiffness = 1e3;
     let radial = free_shaft(b6205(5e-6), DegreesOfFreedom::Three).shaft(shaft).shaft_load([0.0, -500.0]);
     assert_eq!(started(radial.build().unwrap()).get("bearing.operating_angle").unwrap(), 0.0);
+}
+
+#[test]
+fn balls_without_inertia_follow_those_with_inertia_where_nothing_rings() {
+    let of = |inertia, damping| {
+        let bearing = Bearing { element_inertia: inertia, ..b6205(8e-6) };
+        let scene = lively(bearing).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-8);
+        let mut scene = scene.damping(Damping::HuntCrossley(damping)).build().unwrap();
+        scene.shaft.tilt.load_moment = [0.4, 0.2];
+        started(scene)
+    };
+    let names = ["shaft.y", "shaft.z", "shaft.tilt.x", "element[2].path", "element[2].axial", "element[2].force.inner"];
+    let scales = [1e-6, 1e-6, 1e-4, 1e-6, 1e-6, 100.0];
+    // Without damping, whose rates are those of the path in balance, the start is one and the same.
+    let (mut full, mut none) = (of(ElementInertia::Full, 0.0), of(ElementInertia::None, 0.0));
+    for ((found, expected), scale) in values(&mut none, names).into_iter().zip(values(&mut full, names)).zip(scales) {
+        assert!((found - expected).abs() < 1e-8 * scale, "{found:e} {expected:e}");
+    }
+    let (mut full, mut none) = (of(ElementInertia::Full, 0.5), of(ElementInertia::None, 0.5));
+    for simulation in [&mut full, &mut none] {
+        simulation.set("shaft.load.z", 300.0).unwrap();
+        simulation.step(4e-3).unwrap();
+    }
+    // Inertia of 9 balls of 2 g beside 3.3 kg: half a per cent of what moves, some hundredths of a micrometre.
+    for ((found, expected), scale) in values(&mut none, names).into_iter().zip(values(&mut full, names)).zip(scales) {
+        assert!((found - expected).abs() < 0.05 * scale, "{found:e} {expected:e}");
+    }
+}
+
+#[test]
+fn balls_without_inertia_have_the_directional_derivatives_of_differences() {
+    let bearing = Bearing { element_inertia: ElementInertia::None, ..b6205(8e-6) };
+    let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 40.0);
+    let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).law(ContactLaw::Hertz).cage(0.0, -1.3);
+    let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+    let inputs =
+        [("shaft.y", -2e-6, 1e-9), ("shaft.z", 90e-6, 1e-9), ("shaft.tilt.x", 3e-4, 1e-7), ("shaft.vz", 1e-3, 1e-5)];
+    for (name, value, _) in inputs {
+        simulation.set(name, value).unwrap();
+    }
+    simulation.initialize(0.0).unwrap();
+    let names = ["shaft.force.z", "shaft.moment.x", "element[2].force.outer", "element[2].axial", "element[3].path"];
+    let outputs = names.map(|name| simulation.reference(name).unwrap());
+    for (name, value, h) in inputs {
+        let input = simulation.reference(name).unwrap();
+        let mut exact = [0.0; 5];
+        simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
+        let mut at = |by: f64| {
+            simulation.set(name, value + by).unwrap();
+            let mut found = [0.0; 5];
+            simulation.reals(&outputs, &mut found).unwrap();
+            found
+        };
+        let (above, below) = (at(h), at(-h));
+        at(0.0);
+        for k in 0..5 {
+            let quotient = (above[k] - below[k]) / (2.0 * h);
+            let size = above[k].abs().max(below[k].abs());
+            let limit = 1e-4 * quotient.abs().max(exact[k].abs()) + 1e-10 * size / h;
+            assert!((quotient - exact[k]).abs() <= limit, "{} by {name}: {:e} {quotient:e}", names[k], exact[k]);
+        }
+    }
+}
+
+#[test]
+fn what_is_not_modelled_in_space_is_refused_by_name() {
+    let film = brinell::scene::Film { viscosity: 0.05, pressure_viscosity: 2e-8, layer: None };
+    let scene = lively(b6205(8e-6)).film(film).build().unwrap();
+    let refused = Simulation::new(scene, None).unwrap_err().to_string();
+    assert!(refused.contains("[film]") && refused.contains("degrees_of_freedom = 2"), "{refused}");
+}
+
+#[test]
+fn rings_pushed_beyond_their_grooves_stop_the_step_with_the_reason() {
+    let scene = Scene::builder(b6205(8e-6)).degrees_of_freedom(DegreesOfFreedom::Five);
+    let mut simulation = started(scene.shaft(Ring::hosted()).housing(Ring::fixed()).build().unwrap());
+    simulation.set("shaft.z", 0.4e-3).unwrap();
+    let refused = simulation.step(1e-4).unwrap_err().to_string();
+    // A of a 6205 is 0.3176 mm.
+    assert!(refused.contains("along z -4.000e-4 m") && refused.contains("3.176e-4 m"), "{refused}");
+    assert!(simulation.set("shaft.tilt.x", 0.06).unwrap_err().to_string().contains("0.05"));
+}
+
+#[test]
+fn under_every_law_a_ball_over_a_line_spall_carries_about_the_same() {
+    let of = |law| {
+        let bearing = Bearing { operating_angle: Some(15f64.to_radians()), ..b6205(8e-6) };
+        let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Three).cage(0.0, -0.5 * PI + 0.01);
+        let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).spall(-0.5 * PI, 0.5e-3, 50e-6).law(law);
+        let scene = scene.contact_cells([24, 12]).map_accuracy(0.05).largest_force(600.0);
+        let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+        for (name, value) in [("shaft.y", -3e-6), ("shaft.z", 95e-6)] {
+            simulation.set(name, value).unwrap();
+        }
+        simulation.initialize(0.0).unwrap();
+        let names =
+            ["element[1].force.outer", "element[1].contact_angle.outer", "shaft.force.z", "element[5].force.outer"];
+        values(&mut simulation, names)
+    };
+    let [hertz, map, love] = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love].map(of);
+    for (map, love) in map.into_iter().zip(love) {
+        // The map's own accuracy, of the largest force.
+        assert!((map - love).abs() < 0.05 * 600.0 && (map / love - 1.0).abs() < 0.02, "{map} {love}");
+    }
+    // The rigid ball's contact at an edge is a sixth too stiff at most.
+    for (rigid, love) in hertz.into_iter().zip(love) {
+        assert!((rigid / love - 1.0).abs() < 0.2, "{rigid} {love}");
+    }
+    let smooth = love[3];
+    assert!(love[0] < 0.9 * smooth, "{love:?}");
 }

@@ -25,15 +25,19 @@ fn shows(simulation: &mut Simulation, expected: [&[&str]; 5], digits: f64) {
         (&["element[1].force.inner", "element[1].force.outer"], 1.0),
         (&["element[1].contact_angle.inner", "element[1].contact_angle.outer"], PI / 180.0),
     ];
+    let mut missed = Vec::new();
     for ((names, unit), expected) in names.into_iter().zip([rings, tilts, ball, forces, angles]) {
         for (name, expected) in names.iter().zip(expected) {
             let found = simulation.get(name).unwrap() / unit;
             let decimals = expected.split_once('.').unwrap().1.len() as i32;
             let limit = digits * 0.5 * 10f64.powi(-decimals);
             let value: f64 = expected.parse().unwrap();
-            assert!((found - value).abs() <= limit, "{name} at {}: {found:.9}, not {expected}", simulation.time());
+            if !((found - value).abs() <= limit) {
+                missed.push(format!("{name} at {}: {found:.9}, not {expected}", simulation.time()));
+            }
         }
     }
+    assert!(missed.is_empty(), "{missed:#?}");
 }
 
 impl Path {

@@ -57,11 +57,8 @@ const INTERVAL_OF_RADIUS: f64 = 1.25e-3;
 /// sideways. The error of their slope is √3/216 width³ P⁗, at most 3.1 of the path's error over the width: along the
 /// raceway 3e-10/cos^1.75 κ, and as much as the damper at the element's speed makes of that is wrong with the force.
 const ACCURACY: f64 = 2e-13;
-/// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the
-/// ends' rounding.
-const STEEPEST: f64 = 1e4;
 /// Most intervals of a stretch, which only an element that touches at more than 85° asks for. There the path is less
-/// exact, at 89.8° to 1e-10 of the element's radius; beyond [`STEEPEST`] there is none.
+/// exact, at 89.8° to 1e-10 of the element's radius; beyond [`STEEPEST`](super::rigid_roller::STEEPEST) there is none.
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
@@ -78,7 +75,7 @@ impl RigidPath {
         roller.check_ends()?;
         let Stretches { begin, list: stretches } = roller.stretches();
         for pair in stretches.windows(2) {
-            check_climb(&roller, pair[0].end, [pair[0].feature, pair[1].feature])?;
+            roller.check_climb(pair[0].end, [pair[0].feature, pair[1].feature])?;
         }
         let mut knots = vec![begin];
         let mut pieces = Vec::with_capacity(stretches.len());
@@ -89,14 +86,11 @@ impl RigidPath {
         Ok(Self { knots, pieces })
     }
 
-    /// The path at angles of which the share `cos` turns the bodies over each other: of a track that is a circle about
-    /// another axis than the one about which it rolls. A share of 1 changes no bit.
+    /// The path by angles of which the share `cos` turns the bodies over each other. A share of 1 changes no bit.
     pub fn turned_slower(mut self, cos: f64) -> Self {
+        let starts = self.pieces.iter_mut().map(|piece| (&mut piece.start, &mut piece.per_width));
+        starts.for_each(|(start, per_width)| (*start, *per_width) = (*start / cos, *per_width * cos));
         self.knots.iter_mut().for_each(|knot| *knot /= cos);
-        for piece in &mut self.pieces {
-            piece.start /= cos;
-            piece.per_width *= cos;
-        }
         self
     }
 
@@ -117,21 +111,6 @@ impl RigidPath {
     pub fn second_derivative(&self, piece: usize, angle: f64) -> f64 {
         self.pieces[piece].second_derivative(angle)
     }
-}
-
-/// Refuses a leap of the path between two features that meet at `angle`.
-fn check_climb(roller: &Roller, angle: f64, features: [Feature; 2]) -> Result<(), ContactError> {
-    let [before, behind] = features.map(|feature| roller.touch(feature, angle));
-    let rolling = roller.rolling();
-    if [before, behind].iter().all(|&Touch { path, slope }| slope.abs() <= STEEPEST * rolling.distance(path)) {
-        return Ok(());
-    }
-    Err(ContactError::NoWayOut {
-        at_mm: angle * rolling.bearer_radius() * 1e3,
-        depth_mm: before.path.max(behind.path) * 1e3,
-        limit_mm: before.path.min(behind.path) * 1e3,
-        radius_mm: rolling.element_radius * 1e3,
-    })
 }
 
 impl Piece {

@@ -7,6 +7,10 @@ use crate::contact::error::ContactError;
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::rolling::{Rolling, Touch};
 
+/// Largest tan κ with which a stretch may begin or end, 89.99°. Where the path leaps it is infinite, or 1e5 by the
+/// ends' rounding.
+pub(super) const STEEPEST: f64 = 1e4;
+
 /// What the element touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Feature {
@@ -82,6 +86,21 @@ impl Roller {
     /// First and last angle of the profile.
     fn ends(&self) -> (f64, f64) {
         (self.vertices.first().map_or(0.0, |v| v.phi), self.vertices.last().map_or(0.0, |v| v.phi))
+    }
+
+    /// Refuses a leap of the path between two features that meet at `angle`.
+    pub(super) fn check_climb(&self, angle: f64, features: [Feature; 2]) -> Result<(), ContactError> {
+        let [before, behind] = features.map(|feature| self.touch(feature, angle));
+        let rolling = self.rolling();
+        if [before, behind].iter().all(|&Touch { path, slope }| slope.abs() <= STEEPEST * rolling.distance(path)) {
+            return Ok(());
+        }
+        Err(ContactError::NoWayOut {
+            at_mm: angle * rolling.bearer_radius() * 1e3,
+            depth_mm: before.path.max(behind.path) * 1e3,
+            limit_mm: before.path.min(behind.path) * 1e3,
+            radius_mm: rolling.element_radius * 1e3,
+        })
     }
 
     /// Refuses a profile around the whole body.

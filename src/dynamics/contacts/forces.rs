@@ -143,7 +143,8 @@ impl Forces {
                 block.outer[j % WIDEST] = 0.0;
                 self.non_smooth_outer.push(NonSmooth { element: j, cells: outer });
             }
-            if (model.elements_in_balance() || model.space.is_some()) && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2]) {
+            if (model.elements_in_balance() || model.space.is_some()) && (!rigid || [inner, outer] != [[SMOOTH; 2]; 2])
+            {
                 let block = &mut self.elements[j / WIDEST];
                 (block.inner[j % WIDEST], block.outer[j % WIDEST]) = (0.0, 0.0);
                 self.searched.push(Searched { element: j, cells: [inner, outer] });

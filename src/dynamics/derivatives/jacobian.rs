@@ -13,6 +13,7 @@
 //!
 //! The derivatives are those of the branch that the state is in; at the onset of a contact there are two.
 
+use super::fastest::{BodyIndices, Fastest};
 use super::spatial_jacobian::SpatialJacobian;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
@@ -44,24 +45,6 @@ pub struct ElementBlock {
     pub rings_by_path: Rings,
     /// ∂(v_i', v_o')/∂w (1/s)
     pub rings_by_velocity: Rings,
-}
-
-/// Indices of a body's position and velocity along one axis in the state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BodyIndices {
-    /// Of the position.
-    pub position: usize,
-    /// Of the velocity.
-    pub velocity: usize,
-}
-
-/// What moves fastest.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Fastest {
-    /// Magnitude of its eigenvalue (1/s).
-    pub eigenvalue: f64,
-    /// Its damping ratio, 0 to 1.
-    pub damping: f64,
 }
 
 /// The Jacobian in its blocks.
@@ -124,10 +107,10 @@ impl Jacobian {
         }
         let mut fastest = Fastest::default();
         for block in &self.elements {
-            consider(&mut fastest, block.by_path, block.by_velocity);
+            fastest.consider(block.by_path, block.by_velocity);
         }
         for i in (0..BODIES).filter(|&i| self.body_indices[i].is_some()) {
-            consider(&mut fastest, self.by_own_position(i), self.by_velocity[(i, i)]);
+            fastest.consider(self.by_own_position(i), self.by_velocity[(i, i)]);
         }
         fastest
     }
@@ -176,22 +159,6 @@ impl Jacobian {
     }
 }
 
-/// Takes a motion into account that accelerates by its position (1/s²) and its velocity (1/s).
-pub(super) fn consider(fastest: &mut Fastest, by_position: f64, by_velocity: f64) {
-    // λ² = by_velocity λ + by_position
-    let half = 0.5 * by_velocity;
-    let square = half * half + by_position;
-    // Two real eigenvalues, or a pair of magnitude √(−by_position).
-    let (root, damping) = if square >= 0.0 {
-        (half.abs() + square.sqrt(), 1.0)
-    } else {
-        ((-by_position).sqrt(), -half / (-by_position).sqrt())
-    };
-    if root > fastest.eigenvalue {
-        *fastest = Fastest { eigenvalue: root, damping: damping.clamp(0.0, 1.0) };
-    }
-}
-
 impl Default for ElementBlock {
     fn default() -> Self {
         let (none, rings) = (Vector::zeros(), Rings::zeros());
@@ -233,14 +200,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) {
         if let (Some(space), Jacobian { space: Some(of_space), by_time, .. }) = (&self.space, &mut *jacobian) {
-            return self.linearize_in_space(
-                space,
-                (excitation, tau),
-                cells,
-                state,
-                (of_space, by_time),
-                shortcuts,
-            );
+            return self.linearize_in_space(space, (excitation, tau), cells, state, (of_space, by_time), shortcuts);
         }
         let start = self.layout.radial_velocity;
         let host = |motion: Motion, prescribed| {

@@ -1,10 +1,10 @@
 //! The Jacobian of the right-hand side in space, damping included, and its derivative by time.
 //!
-//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w, w_z)
-//! and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states, the
-//! rings' positions and velocities, and time.
+//! A ball couples to the rings and to no other ball: an arrow as in the plane, with blocks of four states (u, v, w,
+//! w_z) and the rings' ten coordinates. All derivatives are those of one text over dual numbers: by the ball's states,
+//! the rings' positions and velocities, and time.
 
-use super::jacobian::{BodyIndices, Fastest, consider};
+use super::fastest::{BodyIndices, Fastest};
 use crate::contact::groove::Spatial;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
@@ -94,8 +94,8 @@ impl SpatialJacobian {
         }
     }
 
-    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its damping
-    /// are largest along, and each body.
+    /// As [`Jacobian::fastest`](super::Jacobian::fastest): each ball along and across what its stiffness and its
+    /// damping are largest along, and each body.
     pub(super) fn fastest(&self) -> Fastest {
         let mut fastest = Fastest::default();
         for block in &self.balls {
@@ -103,12 +103,12 @@ impl SpatialJacobian {
             let (stiff, damped) = (part(0), part(2));
             for along in [principal(stiff), principal(damped)] {
                 for n in [along, [-along[1], along[0]]] {
-                    consider(&mut fastest, form(stiff, n), form(damped, n));
+                    fastest.consider(form(stiff, n), form(damped, n));
                 }
             }
         }
         for i in (0..SPATIAL_BODIES).filter(|&i| self.body_indices[i].is_some()) {
-            consider(&mut fastest, self.by_own_position(i), self.by_velocity[i][i]);
+            fastest.consider(self.by_own_position(i), self.by_velocity[i][i]);
         }
         fastest
     }
@@ -216,8 +216,7 @@ impl Model {
             let ball = at.ball(self, space, ball_state);
             let found = self.ball_forces(space, self.cells_of(cells, j), &at, &ball, shortcuts);
             let [f_r, _, f_z] = found.force();
-            let gravity: Spatial<Changing> =
-                [self.gravity.x, self.gravity.y, space.gravity].map(Changing::constant);
+            let gravity: Spatial<Changing> = [self.gravity.x, self.gravity.y, space.gravity].map(Changing::constant);
             let rates = ball.accelerations([f_r, f_z], self.inverse_element_mass, gravity);
             let part = |of: &Changing, from: usize| std::array::from_fn(|i| of.by[from + i]);
             let on_rings = found.on_rings();
@@ -273,7 +272,8 @@ impl Model {
     /// Rings and frames with what they change by.
     fn shared_in_space(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> Shared {
         let (now, still) = (self.kinematics(excitation, tau, state), self.rings_in_space(excitation, tau, state, None));
-        let mut rings = [RingInSpace { position: [Changing::constant(0.0); 5], velocity: [Changing::constant(0.0); 5] }; 2];
+        let mut rings =
+            [RingInSpace { position: [Changing::constant(0.0); 5], velocity: [Changing::constant(0.0); 5] }; 2];
         let prescribed = self.prescribed_rates(excitation, tau);
         for ring in 0..2 {
             for k in 0..COORDINATES {
@@ -332,7 +332,8 @@ impl Model {
         for k in 0..SPATIAL_BODIES {
             let mut unit = none;
             unit[k] = 1.0;
-            let column = |from: usize| std::array::from_fn(|i| if k < RINGS { shared.forces[i][from + k] } else { 0.0 });
+            let column =
+                |from: usize| std::array::from_fn(|i| if k < RINGS { shared.forces[i][from + k] } else { 0.0 });
             let by_position = space.accelerations(&unit, &none, &column(0), [0.0; 2]);
             let by_velocity =
                 space.accelerations(&none, &unit, &if k < RINGS { column(RINGS) } else { nothing }, speeds);
@@ -351,7 +352,8 @@ impl Model {
         let acting = std::array::from_fn(|i| loads[i] + shared.forces[i][2 * RINGS]);
         let direct = space.accelerations(&moved, &going, &acting, speeds);
         // The gyroscopic couple changes with the speed.
-        let [with, without] = [speed_rates, [0.0; 2]].map(|rates| space.accelerations(&none, &present, &nothing, rates));
+        let [with, without] =
+            [speed_rates, [0.0; 2]].map(|rates| space.accelerations(&none, &present, &nothing, rates));
         by_time[2 * self.layout.radial_velocity..state.len()].fill(0.0);
         for (i, body) in jacobian.body_indices.iter().enumerate() {
             if let Some(BodyIndices { velocity, .. }) = *body {

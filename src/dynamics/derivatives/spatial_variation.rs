@@ -1,7 +1,7 @@
 //! First-order change of forces for a small change of state and inputs, of rings in space: all that a ball meets is a
 //! dual number along the change.
 
-use super::variation::{Changing, ForceChange, Going, Variation, changing};
+use super::change::{Changing, ForceChange, Going, Variation, changing};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, Frame, FramedKinematics, Frames, Model, RINGS, RingInSpace, Space, Turn,
@@ -101,8 +101,13 @@ impl Model {
             }
             let e_t = turned(Vector::from(at.e_r));
             let path = found.ball.rho - Changing::constant(self.outer_centre_radius);
-            let torque =
-                self.torque_on_cage(e_t, [at.omega, alpha], [path, found.ball.rates[0]], found.force()[1], acceleration);
+            let torque = self.torque_on_cage(
+                e_t,
+                [at.omega, alpha],
+                [path, found.ball.rates[0]],
+                found.force()[1],
+                acceleration,
+            );
             change.cage_torque += torque.by[0];
             change.torque_by_acceleration -= e_t.map(|part| part.value * found.ball.rho.value * self.element_mass);
             for (frame, torque) in found.torques() {

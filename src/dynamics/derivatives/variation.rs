@@ -8,143 +8,12 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
+use super::change::{Changing, ForceChange, Going, Variation, changing};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
-use crate::dynamics::parameters::{
-    CageState, Cells, Excitation, Frame, FramedKinematics, Frames, Lead, Model, PathMotion, RingInSpace, RingState, Turn,
-};
+use crate::dynamics::parameters::{Cells, Excitation, Frame, FramedKinematics, Frames, Model, PathMotion, Turn};
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
-use crate::numerics::number::Dual;
 use crate::numerics::plane::{Matrix, Vector};
-
-/// A small change of state and inputs.
-#[derive(Debug, Clone, Default)]
-pub struct Variation {
-    /// Of the nominal cage angle (rad).
-    pub cage_angle: f64,
-    /// Of the nominal cage speed (rad/s).
-    pub cage_speed: f64,
-    /// Of the speed that oil films follow (rad/s).
-    pub film_speed: f64,
-    /// Of angle (rad) and speed (rad/s) of the frames of defects, in the order of
-    /// [`crate::dynamics::parameters::Frame`].
-    pub frames: [[f64; 2]; 3],
-    /// Of the inner ring.
-    pub shaft: RingState,
-    /// Of the outer ring.
-    pub housing: RingState,
-    /// Of the inner and the outer ring beyond the plane: z, and tilt about x and about y; x and y are as above.
-    pub beyond: [RingInSpace; 2],
-    /// Of the balls' axial positions v (m); of no length in the plane.
-    pub axial: Vec<f64>,
-    /// Of their axial velocities w_z (m/s).
-    pub axial_velocity: Vec<f64>,
-    /// Of the element paths u (m).
-    pub path: Vec<f64>,
-    /// Of the elements' absolute radial velocities w (m/s).
-    pub radial_velocity: Vec<f64>,
-}
-
-/// What contact forces make of a [`Variation`].
-#[derive(Debug, Clone, Default)]
-pub struct ForceChange {
-    /// Of each inner contact's force (N).
-    pub inner: Vec<f64>,
-    /// Of each outer contact's force (N).
-    pub outer: Vec<f64>,
-    /// Of the force on the inner ring (N).
-    pub shaft: Vector,
-    /// Of the force on the outer ring (N).
-    pub housing: Vector,
-    /// Of the force along z (N) and the moments about x and y (N m) on the inner and the outer ring.
-    pub beyond: [[f64; 3]; 2],
-    /// Of each contact angle on the inner and on the outer raceway (rad); of no length in the plane.
-    pub contact_angles: [Vec<f64>; 2],
-    /// Of the cage torque (N m) while the outer ring's acceleration does not change.
-    pub cage_torque: f64,
-    /// Of the torque of contacts near its defects on the inner ring (N m).
-    pub shaft_torque: f64,
-    /// Cage torque by the outer ring's acceleration (kg m).
-    pub torque_by_acceleration: Vector,
-}
-
-impl Variation {
-    /// No change, with room for `count` elements.
-    pub fn new(count: usize) -> Self {
-        Self { path: vec![0.0; count], radial_velocity: vec![0.0; count], ..Self::default() }
-    }
-
-    /// The same, with room for what `count` balls of rings in space do.
-    pub fn in_space(count: usize) -> Self {
-        Self { axial: vec![0.0; count], axial_velocity: vec![0.0; count], ..Self::new(count) }
-    }
-
-    /// Makes it no change again; allocates nothing.
-    pub fn clear(&mut self) {
-        (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
-        self.film_speed = 0.0;
-        (self.shaft, self.housing) = (RingState::default(), RingState::default());
-        self.beyond = Default::default();
-        self.axial.fill(0.0);
-        self.axial_velocity.fill(0.0);
-        self.path.fill(0.0);
-        self.radial_velocity.fill(0.0);
-    }
-
-    /// Of the outer ring's position less that of the inner (m).
-    pub(in crate::dynamics) fn offset(&self) -> Vector {
-        self.housing.position - self.shaft.position
-    }
-
-    /// Moves both rings further (m).
-    pub(in crate::dynamics) fn move_rings(&mut self, motion: &Rings) {
-        self.shaft.position += Vector::new(motion[0], motion[1]);
-        self.housing.position += Vector::new(motion[2], motion[3]);
-    }
-
-    /// Of the outer ring's velocity less that of the inner (m/s).
-    pub(in crate::dynamics) fn drift(&self) -> Vector {
-        self.housing.velocity - self.shaft.velocity
-    }
-}
-
-impl ForceChange {
-    /// Room for `count` elements.
-    pub fn new(count: usize) -> Self {
-        Self { inner: vec![0.0; count], outer: vec![0.0; count], ..Self::default() }
-    }
-
-    /// The same, with room for the contact angles of `count` balls of rings in space.
-    pub fn in_space(count: usize) -> Self {
-        Self { contact_angles: [(); 2].map(|()| vec![0.0; count]), ..Self::new(count) }
-    }
-}
-
-/// A number and its change.
-pub(in crate::dynamics) type Changing = Dual<f64, 1>;
-
-/// How an element goes round with the cage, to first order.
-pub(in crate::dynamics) struct Going {
-    /// Change of its angle (rad).
-    pub(super) turn: f64,
-    /// Change of its speed (rad/s).
-    pub(in crate::dynamics) speed: f64,
-    /// Change of its acceleration (rad/s²).
-    pub(super) alpha: f64,
-}
-
-impl Going {
-    /// Of an element that is so far ahead as the nominal cage's angle and speed change.
-    pub(in crate::dynamics) fn of(Lead { rate, second, third, .. }: Lead, cage: &CageState, by: &Variation) -> Self {
-        let (omega, share) = (cage.speed, 1.0 + rate);
-        Self {
-            turn: share * by.cage_angle,
-            speed: share * by.cage_speed + second * omega * by.cage_angle,
-            alpha: (cage.acceleration * second + omega * omega * third) * by.cage_angle
-                + 2.0 * omega * second * by.cage_speed,
-        }
-    }
-}
 
 impl Model {
     /// What element `j`, at path and absolute radial velocity of the state, meets as all that changes.
@@ -276,10 +145,6 @@ impl Model {
         }
         Matrix::from_fn(|row, column| jacobian[(row, column)].by[0])
     }
-}
-
-pub(super) fn changing(value: f64, by: f64) -> Changing {
-    Changing { value, by: [by] }
 }
 
 fn changing_vector(value: Vector, by: Vector) -> Vector<Changing> {

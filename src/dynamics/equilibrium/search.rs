@@ -19,28 +19,17 @@
 //! the path at which less is.
 
 pub use super::error::EquilibriumError;
+use super::limits::{DOUBLING, ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, UNBALANCED, longest_step};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{ElementMotion, Linearized, Meeting, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
 use crate::dynamics::quasi_static::{PathSearch, RadialForce, Rings, stacked};
 use crate::numerics::plane::Vector;
 
-/// Share of the largest force in play that may remain as residual: a few roundings of a sum of Z forces.
-const RESIDUAL: f64 = 1e-12;
-/// Residual that counts as none (N), for bearings without load: rounding of positions times contact stiffness.
-const SMALLEST_RESIDUAL: f64 = 1e-12;
-/// Share of the largest force beyond which an element is not in balance: its own search ends a thousand times below.
-const UNBALANCED: f64 = 1e-6;
 /// How far from where a search ended a contact law is asked for an answer (m): far above the rounding of paths.
 const FURTHER: f64 = 1e-15;
 /// First step of an element's search that its last path does not begin (m).
 const FIRST_STRIDE: f64 = 1e-6;
-/// Longest step of a ring between two iterations at first (m); a soft support may have a long way to go.
-const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles, rings may go together as far as their supports let them, and the
-/// tangent is that of the damped contacts.
-const DOUBLING: i32 = 50;
-const ITERATIONS: i32 = 500;
 /// Times that cells are looked up anew for the equilibrium found.
 const CELLS: u32 = 8;
 
@@ -352,11 +341,6 @@ impl Model {
             (state[i], state[i + 1]) = (now.housing.position.dot(&e), now.housing.velocity.dot(&e));
         }
     }
-}
-
-/// Longest step of a ring in an iteration (m): after all of them it may have moved by metres.
-fn longest_step(iteration: i32) -> f64 {
-    LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
 }
 
 /// An element in radial balance.

@@ -1,30 +1,19 @@
-//! The static equilibrium in space: each ball's balance is solved inside, then that of the free rings by Newton's method
-//! on the tangent with the balls in balance, as in the plane ([`super::search`]). Tilts count as lengths at the pitch
-//! radius, moments as forces there.
+//! The static equilibrium in space: each ball's balance is solved inside, then that of the free rings by Newton's
+//! method on the tangent with the balls in balance, as in the plane ([`super::search`]). Tilts count as lengths at the
+//! pitch radius, moments as forces there.
 //!
 //! The search begins where the bearing is about closed along the axis, in the sense of the axial load.
 
 use super::error::EquilibriumError;
+use super::limits::{ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, UNBALANCED, longest_step};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, FramedKinematics, Layout, Model, RINGS, RingInSpace, Space,
 };
 use nalgebra::{DMatrix, DVector};
 
-/// Share of the largest force in play that may remain as residual, where rounding allows.
-const RESIDUAL: f64 = 1e-12;
-/// Residual that counts as none (N).
-const SMALLEST_RESIDUAL: f64 = 1e-12;
 /// Rounding of distances of some 20 mm (m).
 const ROUNDING: f64 = 1e-17;
-/// Share of the largest force beyond which a ball is not in balance.
-const UNBALANCED: f64 = 1e-6;
-/// Longest step of a ring between two iterations at first (m).
-const LONGEST_STEP: f64 = 50e-6;
-/// Iterations after which the longest step doubles.
-const DOUBLING: i32 = 50;
-const ITERATIONS: i32 = 500;
-
 /// What the search is given.
 struct Given<'a> {
     space: &'a Space,
@@ -140,7 +129,8 @@ impl Model {
         for (ring, preload) in space.preload.into_iter().enumerate() {
             sums[COORDINATES * ring + 2] += preload;
         }
-        let mut largest = sums.iter().enumerate().fold(0.0f64, |most, (i, load)| most.max(load.abs() / space.length(i)));
+        let mut largest =
+            sums.iter().enumerate().fold(0.0f64, |most, (i, load)| most.max(load.abs() / space.length(i)));
         let (mut contact_sum, mut rounding) = (0.0, 0.0);
         for (j, place) in balls.iter_mut().enumerate() {
             let at = self.ball_motion(j, &given.still, &rings, shortcuts);
@@ -277,9 +267,4 @@ impl Model {
             state[i + 1] = given.space.along_sensor(k, &housing.velocity);
         }
     }
-}
-
-/// Longest step of a ring in an iteration (m).
-fn longest_step(iteration: i32) -> f64 {
-    LONGEST_STEP * f64::from(1 << (iteration / DOUBLING).min(16))
 }

@@ -2,7 +2,7 @@
 //! ([`super::variation`]).
 
 use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::derivatives::variation::Variation;
+use crate::dynamics::derivatives::Variation;
 use crate::dynamics::parameters::{Cells, Excitation, Model, RINGS, Space};
 use crate::numerics::number::Dual;
 use nalgebra::{DMatrix, DVector};
@@ -29,8 +29,7 @@ impl Model {
                 let (mut moved, mut unit) = (Variation::in_space(self.element_count), [0.0; RINGS]);
                 unit[k] = 1.0;
                 moved.move_in_space(&unit);
-                let column =
-                    self.vary_rings_in_space(space, (&now, &rings), (cells, state), &mut moved, shortcuts);
+                let column = self.vary_rings_in_space(space, (&now, &rings), (cells, state), &mut moved, shortcuts);
                 for (row, by) in jacobian.iter_mut().zip(column) {
                     row[k] = by;
                 }
@@ -47,8 +46,7 @@ impl Model {
             let tangent = self.ball_tangent(space, in_cells, place, &at, at.omega, shortcuts);
             let (changing, _) = self.changing_ball_motion(j, &now, &rings, by, shortcuts);
             let place = place.map(Dual::<f64, 1>::from);
-            let (residual, found) =
-                self.ball_residual(space, in_cells, &changing, place, changing.omega, shortcuts);
+            let (residual, found) = self.ball_residual(space, in_cells, &changing, place, changing.omega, shortcuts);
             let direct = tangent.answer(residual.map(|of| of.by[0]));
             for (i, of) in found.on_rings().as_flattened().iter().enumerate() {
                 force[i] += of.by[0] + tangent.by_ball[i][0] * direct[0] + tangent.by_ball[i][1] * direct[1];

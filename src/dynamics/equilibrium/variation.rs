@@ -9,14 +9,15 @@
 
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::contacts::{ElementVariation, Linearized};
-use crate::dynamics::derivatives::variation::{Going, Variation};
+use crate::dynamics::derivatives::{Going, Variation};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
     /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
-    /// (N), and of their loads along z and moments about x and y (N m). `None` if the rings have no stiffness against them.
+    /// (N), and of their loads along z and moments about x and y (N m). `None` if the rings have no stiffness against
+    /// them.
     pub fn vary_equilibrium(
         &self,
         excitation: &Excitation,

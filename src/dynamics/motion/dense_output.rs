@@ -51,9 +51,8 @@ impl Model {
                 }
             }
             // v' = w_z − ż_o
-            let rings = ends.map(|end| {
-                self.ring_rates_in_space(excitation, end.cage.tau, end.derivative)[1].velocity[2]
-            });
+            let rings =
+                ends.map(|end| self.ring_rates_in_space(excitation, end.cage.tau, end.derivative)[1].velocity[2]);
             let velocity = self.rings_in_space(excitation, cage.tau, out, None)[1].velocity[2];
             for j in 0..self.element_count {
                 let second = [0, 1].map(|k: usize| ends[k].derivative[w_z + j] - rings[k]);

@@ -6,9 +6,9 @@
 //! ρ the distance of the element's centre from the *outer ring's* centre), w the radial component of the element's
 //! absolute velocity.
 //!
-//! In space the two lists of the elements are `[u… v…]` and `[w… w_z…]`, with the axial position v and velocity w_z, and
-//! a ring has eight slots more, `z, tilt about x, about y, –` and their rates. Where there is the plane, it is laid out
-//! the same.
+//! In space the two lists of the elements are `[u… v…]` and `[w… w_z…]`, with the axial position v and velocity w_z,
+//! and a ring has eight slots more, `z, tilt about x, about y, –` and their rates. Where there is the plane, it is laid
+//! out the same.
 
 use crate::numerics::lanes::{Partition, QUAD, padded};
 use crate::scene::{DegreesOfFreedom, ElementInertia, Motion, Scene};
@@ -82,19 +82,17 @@ impl Layout {
         (self.freedom != DegreesOfFreedom::Two).then_some([half, self.radial_velocity + half])
     }
 
-    /// Slots of a ring's coordinates beyond the plane and of their rates, from its start on.
-    fn beyond(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
-        (2..self.freedom.count()).map(|k| [Self::POSITIONS[k], Self::VELOCITIES[k]])
-    }
-
-    /// Starts of both rings' slots.
-    fn rings(&self) -> impl Iterator<Item = usize> + use<> {
-        [self.shaft, self.housing].into_iter().flatten()
+    /// Starts of both rings' slots, with the number of their coordinates: the tilt of the outer ring is held.
+    fn rings(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let count = self.freedom.count();
+        let rings = [self.shaft.map(|start| (start, count)), self.housing.map(|start| (start, count.min(3)))];
+        rings.into_iter().flatten()
     }
 
     /// Whether slot `i` is a coordinate beyond the plane of a ring (0), or its rate (1).
     fn is_beyond(&self, i: usize, kind: usize) -> bool {
-        self.rings().any(|start| self.beyond().any(|slots| start + slots[kind] == i))
+        let slots = [Self::POSITIONS, Self::VELOCITIES][kind];
+        self.rings().any(|(start, count)| (2..count).any(|k| start + slots[k] == i))
     }
 
     /// Whether state `i` is a position; otherwise it is a velocity.
@@ -116,7 +114,10 @@ impl Layout {
 
     /// The lists that the state is made up of.
     pub fn partition(&self) -> Partition {
-        Partition { count: if self.axial().is_some() { self.radial_velocity } else { self.element_count }, rest: self.len - 2 * self.radial_velocity }
+        Partition {
+            count: if self.axial().is_some() { self.radial_velocity } else { self.element_count },
+            rest: self.len - 2 * self.radial_velocity,
+        }
     }
 
     /// Whether slot `i` is a state's, not one that only fills a list up.

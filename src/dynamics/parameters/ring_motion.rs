@@ -55,7 +55,13 @@ impl Model {
 
     /// Both rings at `tau`, their positions moved on by the time that is still `ahead` (s).
     #[inline(always)]
-    pub fn rings_in_space(&self, excitation: &Excitation, tau: f64, state: &[f64], ahead: Option<f64>) -> [RingInSpace; 2] {
+    pub fn rings_in_space(
+        &self,
+        excitation: &Excitation,
+        tau: f64,
+        state: &[f64],
+        ahead: Option<f64>,
+    ) -> [RingInSpace; 2] {
         let hosted = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Host);
         self.layout.rings_in_space(excitation, hosted, tau, state, ahead.unwrap_or(0.0))
     }

@@ -16,7 +16,7 @@ use crate::contact::law::elastic_law;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::excitation::{Excitation, Frame};
 use crate::dynamics::parameters::layout::Layout;
-use crate::scene::{Bearing, DegreesOfFreedom, MOST_SENSORS, Motion, Ring, Scene};
+use crate::scene::{Bearing, DegreesOfFreedom, Gyroscopic, MOST_SENSORS, Motion, Ring, Scene};
 
 /// Coordinates of a ring.
 pub const COORDINATES: usize = 5;
@@ -44,10 +44,13 @@ pub struct Space {
     pub grooves: [Groove; 2],
     /// Angles (rad) from the bottoms of the grooves to their shoulders, where the scene has them.
     pub shoulders: [Option<f64>; 2],
-    /// Half-lengths of the contact ellipses across the grooves under 1 N (m), which grow with the cube root of the force.
+    /// Half-lengths of the contact ellipses across the grooves under 1 N (m), which grow with the cube root of the
+    /// force.
     pub half_lengths: [f64; 2],
     /// Damping of balls across the grooves χ_a (s/m).
     pub across_damping: f64,
+    /// Twice the shares of the balls' gyroscopic couple that the inner and the outer contact hold.
+    pub couple_shares: [f64; 2],
     /// Gravity along z (m/s²).
     pub gravity: f64,
     /// Half the pitch diameter (m), which makes a length of a tilt.
@@ -99,11 +102,15 @@ impl Space {
         let sense = bearing.axial_sense();
         Some(Box::new(Self {
             grooves: Groove::of(bearing),
-            shoulders: [(bearing.shoulder_inner, 0), (bearing.shoulder_outer, 1)].map(|(height, side)| {
-                height.map(|height| libm::acos(1.0 - height / bearing.groove_radii()[side]))
-            }),
+            shoulders: [(bearing.shoulder_inner, 0), (bearing.shoulder_outer, 1)]
+                .map(|(height, side)| height.map(|height| libm::acos(1.0 - height / bearing.groove_radii()[side]))),
             half_lengths: half_lengths(bearing),
             across_damping: scene.contact.damping_across(),
+            couple_shares: match bearing.gyroscopic {
+                Gyroscopic::None => [0.0; 2],
+                Gyroscopic::Outer => [0.0, 2.0],
+                Gyroscopic::Shared => [1.0; 2],
+            },
             gravity: scene.axial_gravity,
             pitch_radius: 0.5 * bearing.pitch_diameter,
             largest_shift: bearing.groove_distance(),

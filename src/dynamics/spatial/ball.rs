@@ -118,7 +118,12 @@ impl<T: Number> Ball<T> {
 
     /// Accelerations w' and w_z' (m/s²) under a force along e_r and z (N) of a ball of 1/mass (1/kg), with gravity.
     #[inline(always)]
-    pub(in crate::dynamics) fn accelerations(&self, [f_r, f_z]: [T; 2], per_mass: T::Plain, gravity: Spatial<T>) -> [T; 2] {
+    pub(in crate::dynamics) fn accelerations(
+        &self,
+        [f_r, f_z]: [T; 2],
+        per_mass: T::Plain,
+        gravity: Spatial<T>,
+    ) -> [T; 2] {
         let [g_r, _] = seen(self.e_r, gravity[0], gravity[1]);
         [f_r * per_mass + g_r + self.omega * (self.around + self.rho * self.omega), f_z * per_mass + gravity[2]]
     }
@@ -142,6 +147,14 @@ impl<T: Number> Place<T> {
     #[inline(always)]
     pub(in crate::dynamics) fn closing(&self) -> T {
         self.contact.closing(self.velocity)
+    }
+
+    /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius
+    /// (m).
+    pub(super) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
+        let across = self.contact.across.map(|part| part * force);
+        let point = std::array::from_fn(|i| self.q[i] - self.contact.normal[i] * radius);
+        OnBall { force: across, moment: cross(across, point) }
     }
 
     /// What a contact exerts with these forces along the normal and around the ring (N), its magnitude damped across

@@ -4,9 +4,9 @@
 //! ```text
 //! R_r = F·e_r + m (g·e_r + ρ ω²) = 0     R_z = F_z + m g_z = 0
 //! ```
-//! *There is one balance.* At rest both contacts' energies are convex in (u, v), as a distance from a point is; that the
-//! grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth, of
-//! the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
+//! *There is one balance.* At rest both contacts' energies are convex in (u, v), as a distance from a point is; that
+//! the grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth,
+//! of the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
 //! searches for a zero of a falling function, one within the other, find it from anywhere. A ball that nothing touches
 //! or moves rests against the outer groove without force where it is.
 //!
@@ -88,7 +88,6 @@ impl<T: Scalar> BallMotion<T> {
 impl Model {
     /// R_r and R_z (N) of a ball at u and v that keeps there, and its contacts; it feels the centrifugal force of
     /// `omega` (rad/s).
-    #[inline(always)]
     pub(in crate::dynamics) fn ball_residual<T: Scalar>(
         &self,
         space: &Space,
@@ -100,7 +99,8 @@ impl Model {
     ) -> ([T; 2], BallForces<T>) {
         let none = T::from(0.0);
         let ball = at.ball_moving(self, space, place, [none; 2]);
-        let found = self.ball_forces(space, cells, at, &ball, shortcuts);
+        let mut found = self.ball_forces(space, cells, at, &ball, shortcuts);
+        self.add_couple(space, omega, &mut found);
         let ([f_r, _, f_z], mass) = (found.force(), T::Plain::from(self.element_mass));
         let [g_x, g_y, g_z] = [self.gravity.x, self.gravity.y, space.gravity].map(T::Plain::from);
         let body = at.e_r[0] * g_x + at.e_r[1] * g_y + ball.rho * omega * omega;

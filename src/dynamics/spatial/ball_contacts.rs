@@ -44,14 +44,12 @@ pub(in crate::dynamics) struct BallForces<T: Scalar = f64> {
 
 impl<T: Scalar> BallForces<T> {
     /// Force of both contacts on the ball along e_r, e_t and z (N).
-    #[inline(always)]
     pub(in crate::dynamics) fn force(&self) -> [T; 3] {
         let [inner, outer] = self.contacts.map(|contact| contact.on_ball.force);
         std::array::from_fn(|i| inner[i] + outer[i])
     }
 
     /// Forces and moments on both rings.
-    #[inline(always)]
     pub(in crate::dynamics) fn on_rings(&self) -> [[T; COORDINATES]; 2] {
         self.contacts.map(|contact| self.ball.on_ring(&contact.on_ball))
     }
@@ -64,14 +62,15 @@ impl<T: Scalar> BallForces<T> {
 
 impl<T: Scalar> BallMotion<T> {
     /// The ball at u, v, w and w_z.
-    #[inline(always)]
+    // A function for each kind of number, once: with derivatives it is long.
+    #[inline(never)]
     pub(in crate::dynamics) fn ball(&self, model: &Model, space: &Space, state: BallState<T>) -> Ball<T> {
         let radius = T::from(model.outer_centre_radius);
         Ball::new(&space.grooves, radius, self.e_r, self.omega, state, &self.rings)
     }
 
     /// The ball at u and v, which change at these rates.
-    #[inline(always)]
+    #[inline(never)]
     pub(in crate::dynamics) fn ball_moving(&self, model: &Model, space: &Space, at: [T; 2], rates: [T; 2]) -> Ball<T> {
         let radius = T::from(model.outer_centre_radius);
         let [inner, outer] = &self.rings;
@@ -81,7 +80,6 @@ impl<T: Scalar> BallMotion<T> {
 
 impl Model {
     /// The contacts of a ball in these cells.
-    #[inline(always)]
     pub(in crate::dynamics) fn ball_forces<T: Scalar>(
         &self,
         space: &Space,
@@ -95,7 +93,6 @@ impl Model {
     }
 
     /// The same with these laws.
-    #[inline(always)]
     pub(in crate::dynamics) fn ball_forces_with<T: Scalar>(
         &self,
         laws: [&CompliantContact; 2],
@@ -107,17 +104,15 @@ impl Model {
     ) -> BallForces<T> {
         let mut contact = |side: RacewaySide| {
             let (law, cells) = (laws[side as usize], cells[side as usize]);
-            self.ball_contact(law, side, cells, at, ball, space.across_damping, shortcuts)
+            self.ball_contact((law, side), cells, at, ball, space.across_damping, shortcuts)
         };
         BallForces { ball: *ball, contacts: [contact(RacewaySide::Inner), contact(RacewaySide::Outer)] }
     }
 
-    #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
+    #[inline(never)]
     fn ball_contact<T: Scalar>(
         &self,
-        law: &CompliantContact,
-        side: RacewaySide,
+        (law, side): (&CompliantContact, RacewaySide),
         cells: [u32; 2],
         at: &BallMotion<T>,
         ball: &Ball<T>,
@@ -144,7 +139,6 @@ impl Model {
     }
 
     /// Where a ball meets a defect: outside in its own direction, inside in that from the inner ring's axis.
-    #[inline(always)]
     pub(in crate::dynamics) fn ball_meeting<T: Scalar>(
         &self,
         side: RacewaySide,

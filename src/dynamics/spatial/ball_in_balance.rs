@@ -1,7 +1,7 @@
 //! Balls without inertia: in balance between both grooves at every instant.
 //!
-//! With the elastic residual R(b, t) of a ball at b = (u, v), its place and velocity follow from where the rings are and
-//! how they move, as in the plane (`quasi_static::element_balance`):
+//! With the elastic residual R(b, t) of a ball at b = (u, v), its place and velocity follow from where the rings are
+//! and how they move, as in the plane (`quasi_static::element_balance`):
 //! ```text
 //! R(b, t) = 0     b' = −R_b⁻¹ R_t
 //! ```
@@ -116,7 +116,8 @@ impl Model {
         self.balanced_ball(space, cells, guess, &standing, at.omega, shortcuts).at
     }
 
-    /// A ball in balance, looked for from `guess` on; `alpha` is its acceleration about the outer ring's centre (rad/s²).
+    /// A ball in balance, looked for from `guess` on; `alpha` is its acceleration about the outer ring's centre
+    /// (rad/s²).
     pub(in crate::dynamics) fn ball_in_balance<T: Scalar>(
         &self,
         space: &Space,
@@ -141,7 +142,8 @@ impl Model {
         let ball = at.ball_moving(self, space, place, rates);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let laws = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
-        let damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
+        let mut damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
+        self.add_couple(space, at.omega, &mut damped);
         let plain = |of: Spatial<Moving<T>>| of.map(|part| part.value);
         let [f_r, _, f_z] = [0, 1, 2].map(|i: usize| {
             let [inner, outer] = [0, 1].map(|side: usize| {
@@ -170,8 +172,10 @@ impl Model {
             let (of, part) = (&elastic.contacts[side], |base: Spatial<Moving<T>>, change: Spatial<T>| {
                 std::array::from_fn::<T, 3, _>(|i| base[i].value + change[i] * share)
             });
-            let on_ball =
-                OnBall { force: part(of.on_ball.force, change[side][0]), moment: part(of.on_ball.moment, change[side][1]) };
+            let on_ball = OnBall {
+                force: part(of.on_ball.force, change[side][0]),
+                moment: part(of.on_ball.moment, change[side][1]),
+            };
             let contact = &ball.places[side].contact;
             let [along, around] = [dot(on_ball.force, contact.normal), dot(on_ball.force, contact.around)];
             let magnitude = (along * along + around * around).sqrt();

@@ -49,8 +49,7 @@ impl Model {
         rings: &[RingInSpace; 2],
         stage: &Stage,
         derivative: &mut [f64],
-        elements: &[ElementBlock],
-        contacts: &mut Record,
+        (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; RINGS] {
         let all = |ring: &RingInSpace| RingInSpace {
             position: ring.position.map(|x| Lanes::splat(simd, x)),

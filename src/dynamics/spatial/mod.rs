@@ -9,6 +9,8 @@ mod ball_balance;
 mod ball_contacts;
 mod ball_in_balance;
 mod ball_lanes;
+mod ball_motion;
+mod gyroscopic;
 mod right_hand_side;
 mod tangent;
 

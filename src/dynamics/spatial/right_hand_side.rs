@@ -1,14 +1,10 @@
 //! The right-hand side in space: balls with radial and axial motion, rings with their five coordinates, sensors.
 
-use super::ball_contacts::{BallForces, BallMotion};
-use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{Forces, Record, UnsolvedContact};
+use crate::dynamics::contacts::Forces;
 use crate::dynamics::parameters::{
-    COORDINATES, FramedKinematics, Layout, Model, RINGS, RingInSpace, SMOOTH, SPATIAL_BODIES, Space,
-    Stage, force_slot,
+    COORDINATES, Layout, Model, RINGS, RingInSpace, SMOOTH, SPATIAL_BODIES, Space, Stage, force_slot,
 };
-use crate::numerics::lanes::{WIDEST, Wide};
-use crate::numerics::plane::turned_by;
+use crate::numerics::lanes::Wide;
 
 impl Model {
     /// As [`Model::derivative_on`] of rings in space.
@@ -31,8 +27,8 @@ impl Model {
         let mut sums = if self.elements_in_balance() {
             self.balls_in_balance::<RECORD>(space, &rings, stage, derivative, forces)
         } else {
-            let (elements, contacts) = (&forces.elements, &mut forces.contacts);
-            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, elements, contacts)
+            let kept = (&*forces.elements, &mut forces.contacts);
+            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, kept)
         };
         if !forces.searched.is_empty() && !self.elements_in_balance() {
             forces.frames = excitation.frames_at(cage.tau);
@@ -42,29 +38,6 @@ impl Model {
             forces.rings[force_slot(i / COORDINATES, i % COORDINATES)] = force;
         }
         self.spatial_bodies(space, stage, &rings, &sums, derivative);
-    }
-
-    /// Ball `j` where it is within a step's kernels, and its acceleration about the outer ring's centre (rad/s²).
-    #[inline(always)]
-    pub(super) fn ball_within(
-        &self,
-        j: usize,
-        stage: &Stage,
-        rings: &[RingInSpace; 2],
-        forces: &Forces,
-    ) -> (BallMotion, f64) {
-        let (block, i, cage) = (&forces.elements[j / WIDEST], j % WIDEST, stage.cage);
-        let alpha = cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i];
-        let at = BallMotion {
-            element: j,
-            e_r: turned_by(cage.direction, block.sin[i], block.cos[i]).into(),
-            angle: cage.angle + self.element_offset(j) + block.lead[i],
-            omega: cage.speed * block.pace[i],
-            rings: *rings,
-            frames: forces.frames,
-            curved: true,
-        };
-        (at, alpha)
     }
 
     /// Balls of which a contact is near a defect, one by one, after all others.
@@ -101,29 +74,6 @@ impl Model {
                     forces.torques[frame as usize] += torque;
                 }
                 found.keep(self, j, f_t, &mut forces.contacts);
-            }
-        }
-    }
-
-    /// Keeps why a contact near a defect has no answer, if it is the cause.
-    #[cold]
-    pub(super) fn note_unsolved(
-        &self,
-        cells: [[u32; 2]; 2],
-        at: &BallMotion,
-        found: &BallForces,
-        forces: &mut Forces,
-    ) {
-        for side in [RacewaySide::Inner, RacewaySide::Outer] {
-            let meeting = self.ball_meeting(side, cells[side as usize], at, &found.ball);
-            if cells[side as usize] == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
-                continue;
-            }
-            if let Err(cause) = self.near(side, &meeting, &at.frames, &mut forces.shortcuts) {
-                let angle = self.angle_from_defect(side, &meeting, &at.frames);
-                let [inner, outer] = &at.rings;
-                let offset = [0, 1].map(|k| outer.position[k] - inner.position[k]);
-                forces.unsolved = Some(UnsolvedContact { element: at.element, angle, offset, cause });
             }
         }
     }
@@ -165,45 +115,6 @@ impl Model {
         }
         for (k, i) in self.layout.sensor_indices().enumerate() {
             (derivative[i], derivative[i + 1]) = (v[RINGS + k], accelerations[RINGS + k]);
-        }
-    }
-
-    /// Ball `j` at an instant, all else as `now` says.
-    pub(in crate::dynamics) fn ball_motion(
-        &self,
-        j: usize,
-        now: &FramedKinematics,
-        rings: &[RingInSpace; 2],
-        shortcuts: &mut crate::dynamics::contacts::Shortcuts,
-    ) -> BallMotion {
-        let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
-        BallMotion {
-            element: j,
-            e_r: self.direction_with(j, &now.cage, &lead).into(),
-            angle: now.cage.angle + self.element_offset(j) + lead.angle,
-            omega: lead.speed(&now.cage)[0],
-            rings: *rings,
-            frames: now.frames,
-            curved: true,
-        }
-    }
-}
-
-impl BallForces {
-    /// Keeps the contacts of ball `j`, which they push with `around` (N) along e_t.
-    pub(super) fn keep(&self, model: &Model, j: usize, around: f64, record: &mut Record) {
-        let [inner, outer] = &self.contacts;
-        let pushing = |side: usize| {
-            let contact = &self.contacts[side];
-            [&model.inner, &model.outer][side].contact.law.pushing(contact.approach, contact.rate)
-        };
-        (record.inner[j], record.outer[j], record.outer_tangential[j]) = (inner.magnitude, outer.magnitude, around);
-        (record.inner_approach[j], record.outer_approach[j]) = (inner.approach, outer.approach);
-        (record.inner_pushing[j], record.outer_pushing[j]) = (pushing(0), pushing(1));
-        record.path_rate[j] = self.ball.rates[0];
-        for side in 0..2 {
-            let [along_e, along_a] = self.ball.places[side].contact.meridian;
-            (record.meridians[2 * side][j], record.meridians[2 * side + 1][j]) = (along_e, along_a);
         }
     }
 }

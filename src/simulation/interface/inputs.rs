@@ -17,8 +17,8 @@ pub(in crate::simulation) struct Inputs {
     /// Speed of the inner ring, and of an outer ring that turns.
     pub(in crate::simulation) speeds: [Option<usize>; 2],
     pub(in crate::simulation) tolerance: Option<usize>,
-    /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, an output, or rings
-    /// in space.
+    /// Whether anything asks for the frames of defects: a defect that is not of an outer ring at rest, an output, or
+    /// rings in space.
     pub(in crate::simulation) frames: bool,
     /// Inputs are the first so many rows.
     pub(in crate::simulation) count: usize,

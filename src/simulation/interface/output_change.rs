@@ -1,8 +1,8 @@
 //! A small change of the bearing, of which the derivatives of outputs are made.
 
 use super::quantity::RingName;
-use crate::dynamics::derivatives::{ForceChange, Variation};
 use crate::dynamics::contacts::Forces;
+use crate::dynamics::derivatives::{ForceChange, Variation};
 use crate::dynamics::parameters::{
     COORDINATES, Excitation, Frame, Model, RINGS, RingInSpace, RingState, SPATIAL_BODIES,
 };

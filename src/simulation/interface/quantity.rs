@@ -29,8 +29,8 @@ impl RingName {
     }
 }
 
-/// What a variable stands for in the model. `usize` arguments are the coordinate of a ring (0 is x, 1 is y, 2 is z, 3 and
-/// 4 the tilt about x and y; what acts along a tilt is a moment) or the element (from 0).
+/// What a variable stands for in the model. `usize` arguments are the coordinate of a ring (0 is x, 1 is y, 2 is z, 3
+/// and 4 the tilt about x and y; what acts along a tilt is a moment) or the element (from 0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Quantity {

@@ -18,16 +18,30 @@ impl Simulation {
     /// The arrays of this scene, in the order of the table.
     pub fn arrays(&self) -> Vec<ElementArray> {
         let first = |wanted: &Q| {
-            matches!(wanted, Q::ElementAngle(0) | Q::ElementPath(0) | Q::ElementInnerForce(0) | Q::ElementOuterForce(0))
+            matches!(
+                wanted,
+                Q::ElementAngle(0)
+                    | Q::ElementPath(0)
+                    | Q::ElementAxial(0)
+                    | Q::ElementInnerForce(0)
+                    | Q::ElementOuterForce(0)
+                    | Q::ContactAngle(0, _)
+                    | Q::ShoulderMargin(0, _)
+            )
         };
         self.quantities.iter().filter(|quantity| first(quantity)).map(|&quantity| self.array_of(quantity)).collect()
     }
 
     /// All rows that are what `first` is of element 1.
     fn array_of(&self, first: Q) -> ElementArray {
-        let kind = std::mem::discriminant(&first);
+        // On one of the two raceways.
+        let side = |quantity: Q| match quantity {
+            Q::ContactAngle(_, side) | Q::ShoulderMargin(_, side) => side,
+            _ => 0,
+        };
+        let kind = |quantity: Q| (std::mem::discriminant(&quantity), side(quantity));
         let rows = self.table.iter().zip(self.quantities.iter());
-        let rows = rows.filter(|(_, quantity)| std::mem::discriminant(*quantity) == kind).map(|(row, _)| row.reference);
+        let rows = rows.filter(|(_, quantity)| kind(**quantity) == kind(first)).map(|(row, _)| row.reference);
         ElementArray { rows: rows.collect() }
     }
 }

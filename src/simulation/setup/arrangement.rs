@@ -6,7 +6,7 @@
 //! both together become one profile, whose envelope and whose contact map are one; those farther apart keep a surface
 //! each. Overlaps are refused: which of two depths would hold is not said.
 
-use super::tracks::{defect_radius, element_on_track};
+use super::tracks::element_on_track;
 use crate::contact::law::elastic_law;
 use crate::contact::love::EdgeSoftness;
 use crate::contact::rolling::RacewaySide;
@@ -89,7 +89,7 @@ fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<
         let defect = &scene.defects[one];
         return Ok(vec![PlacedSurface { on: defect.on, surface: Cow::Borrowed(&surfaces[one]), centre: defect.angle }]);
     }
-    let radius = defect_radius(&scene.bearing, scene.defects[all[0]].on);
+    let radius = scene.defects[all[0]].on.radius(&scene.bearing);
     let mut covered: Vec<Covered> = all
         .iter()
         .map(|&index| {
@@ -138,7 +138,7 @@ fn joined<'a>(
 ) -> Result<PlacedSurface<'a>, SurfaceError> {
     let first = &covered[group[0]];
     let defect = &scene.defects[first.index];
-    let radius = defect_radius(&scene.bearing, defect.on);
+    let radius = defect.on.radius(&scene.bearing);
     if group.len() == 1 {
         return Ok(PlacedSurface {
             on: defect.on,
@@ -206,7 +206,8 @@ pub fn largest_force(scene: &Scene) -> f64 {
         return force;
     }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| libm::hypot(f[0], f[1])).fold(0.0, f64::max);
-    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
+    let needed =
+        4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
         decade *= 10.0;

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::tracks::{element_on_track, with_operating_angle};
 use super::arrangement::{arranged, largest_approach, largest_force, sides, softness_of_edges};
+use super::tracks::{element_on_track, on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::Resolution;
 use crate::contact::map::{ContactMap, ContactMaps, MapSpecification, Runner};
@@ -85,9 +85,14 @@ pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<Nee
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
             let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
-            let fingerprint = ContactMap::fingerprint_of(&spot.surface, element, specification);
+            // Of the rounded clearance as well: one map serves all that are rounded to it.
+            let surface = match on_track(&spot.surface, &bearing, spot.on) {
+                Cow::Borrowed(_) => spot.surface.clone(),
+                Cow::Owned(stretched) => Cow::Owned(stretched),
+            };
+            let fingerprint = ContactMap::fingerprint_of(&surface, element, specification);
             if !maps.iter().any(|map| map.fingerprint == fingerprint) {
-                maps.push(NeededMap { surface: spot.surface.clone(), element, specification, fingerprint });
+                maps.push(NeededMap { surface, element, specification, fingerprint });
             }
         }
     }

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
 use super::maps::{map_specification, prepared};
-use super::tracks::{defect_radius, element_on_track, rolling_on_track};
+use super::tracks::{defect_radius, element_on_track, on_track, rolling_on_track};
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Centred, DefectiveElement, Defects, Frame, Model, WholeAngle};
-use crate::scene::{ContactLaw, DefectOn, DegreesOfFreedom, Scene};
+use crate::scene::{ContactLaw, DefectOn, DegreesOfFreedom, Gyroscopic, Scene};
 use crate::simulation::SimulationError;
 use crate::surface::roller_profile::unread;
 use crate::surface::{Surface, SurfaceError};
@@ -25,14 +25,15 @@ fn near(
     stored: Option<&Arc<ContactMaps>>,
     computed: &mut Vec<Arc<ContactMap>>,
 ) -> Result<NearDefect, SimulationError> {
-    let surface = &*spot.surface;
+    let surface = &*on_track(&spot.surface, &scene.bearing, spot.on);
     let bearer = defect_radius(&scene.bearing, spot.on);
     let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
     let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
     if let Surface::Topography(_) = surface
         && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two
     {
-        return Err(SimulationError::TopographyInSpace { given: scene.bearing.degrees_of_freedom.count() });
+        let what = "a topography, which balls at a contact angle meet beside its middle row,";
+        return Err(SimulationError::NotInSpace { what, given: scene.bearing.degrees_of_freedom.count() });
     }
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => {
@@ -81,6 +82,13 @@ pub fn build_model(
 ) -> Result<Model, SimulationError> {
     if let Some(name) = unread(scene) {
         return Err(SurfaceError::no_crown(name).into());
+    }
+    if scene.film.is_some() && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
+        let given = scene.bearing.degrees_of_freedom.count();
+        return Err(SimulationError::NotInSpace { what: "the oil film, [film],", given });
+    }
+    if scene.bearing.gyroscopic != Gyroscopic::None && scene.housing_speed.is_some() {
+        return Err(SimulationError::CoupleOfTurningHousing);
     }
     if surfaces.is_empty() {
         return Ok(Model::smooth(scene));

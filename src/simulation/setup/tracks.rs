@@ -1,8 +1,9 @@
 //! Where elements run on the raceways: at the groove's bottom, or in space at the operating angle α_n.
 //!
 //! A track at α_n is a circle of radius R_c about its ring's axis, with the curvature cos α_n/R_c along rolling. So a
-//! raceway of the radius R_n = R_c/cos α_n stands for it, on which an angle d around the ring is d cos α_n: arcs are the
-//! same, R_c d = R_n d cos α_n.
+//! raceway of the radius R_n = R_c/cos α_n stands for it, on which an angle d around the ring is d cos α_n: arcs are
+//! the same, R_c d = R_n d cos α_n. A defect keeps the angles that it has at the groove's bottom, of radius R, so that
+//! its arcs on the track are R_c/R as long.
 
 use std::borrow::Cow;
 
@@ -11,6 +12,7 @@ use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Beyond, Excitation, Model, Quadratic};
 use crate::scene::{Bearing, DefectOn, DegreesOfFreedom, Motion, Scene};
+use crate::surface::Surface;
 
 /// Change of the operating angle below which it is that of the balance (rad): a thousandth of a degree.
 const SETTLED: f64 = 1.7e-5;
@@ -30,8 +32,8 @@ pub(super) fn element_on_track(bearing: &Bearing, side: RacewaySide) -> ElementO
     }
 }
 
-/// How it rolls there, over a defect of the element or of the raceway; and cos α_n by which angles around what bears the
-/// defect are shorter there.
+/// How it rolls there, over a defect of the element or of the raceway; and cos α_n by which angles around what bears
+/// the defect are shorter there.
 pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element: bool) -> (Rolling, f64) {
     let rolling = Rolling::of(bearing, side, on_element);
     match angle_of(bearing) {
@@ -43,7 +45,17 @@ pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element:
     }
 }
 
-/// Radius of a body where its defects are (m).
+/// A surface as it is met on the track. A topography is not, and stays what it is.
+pub(super) fn on_track<'a>(surface: &'a Surface, bearing: &Bearing, on: DefectOn) -> Cow<'a, Surface> {
+    match surface {
+        Surface::Profile(profile) if angle_of(bearing) != 0.0 && !matches!(on, DefectOn::Element { .. }) => {
+            Cow::Owned(Surface::Profile(profile.stretched(defect_radius(bearing, on) / on.radius(bearing))))
+        }
+        _ => Cow::Borrowed(surface),
+    }
+}
+
+/// Radius of a body's track where its defects are (m).
 pub(super) fn defect_radius(bearing: &Bearing, on: DefectOn) -> f64 {
     match (on, angle_of(bearing)) {
         (_, 0.0) | (DefectOn::Element { .. }, _) => on.radius(bearing),
@@ -52,8 +64,8 @@ pub(super) fn defect_radius(bearing: &Bearing, on: DefectOn) -> f64 {
     }
 }
 
-/// The scene with the operating angle that it leaves open: with free rings the mean |α| of the start's balance on smooth
-/// raceways, weighted with the forces, and 0 where a host moves a ring.
+/// The scene with the operating angle that it leaves open: with free rings the mean |α| of the start's balance on
+/// smooth raceways, weighted with the forces, and 0 where a host moves a ring.
 pub(in crate::simulation) fn with_operating_angle(scene: &Scene) -> Cow<'_, Scene> {
     let bearing = &scene.bearing;
     if bearing.degrees_of_freedom == DegreesOfFreedom::Two || bearing.given_operating_angle().is_some() {

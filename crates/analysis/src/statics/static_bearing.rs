@@ -19,7 +19,7 @@ use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::dynamics::parameters::{Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
-use brinell::scene::{DegreesOfFreedom, DefectOn, ElementInertia, Motion, Ring, Scene, SceneError};
+use brinell::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, SurfaceError, with_roller_profile};
@@ -51,8 +51,8 @@ pub enum StaticError {
     },
     /// Rings that move along the axis or tilt.
     #[error(
-        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of rings in \
-         space is among the outputs of a run (shaft.stiffness.zz and its like)"
+        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of \
+         rings in space is among the outputs of a run (shaft.stiffness.zz and its like)"
     )]
     InSpace {
         /// Degrees of freedom.

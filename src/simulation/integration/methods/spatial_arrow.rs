@@ -67,9 +67,8 @@ impl SpatialArrow {
             solved.inverse = [[m[1][1], -m[0][1]], [-m[1][0], m[0][0]]].map(|row| row.map(|part| part / determinant));
             for i in 0..RINGS {
                 let carried = product(stiffness(block), unit_carried(block, i));
-                let right = [0, 1].map(|k: usize| {
-                    (block.by_position[k][i] - carried[k]) * per_shift + block.by_velocity[k][i]
-                });
+                let right =
+                    [0, 1].map(|k: usize| (block.by_position[k][i] - carried[k]) * per_shift + block.by_velocity[k][i]);
                 let [w, w_z] = product(solved.inverse, right);
                 (solved.by_rings[0][i], solved.by_rings[1][i]) = (w, w_z);
             }

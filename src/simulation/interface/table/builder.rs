@@ -56,6 +56,16 @@ impl<'a> Builder<'a> {
         self.push(name, text, kind, (Causality::Parameter, Variability::Fixed), quantity);
     }
 
+    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
+        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
+        let variability = match quantity {
+            // The mean belongs to the last communication step.
+            Quantity::MeanForce(..) => Variability::Discrete,
+            _ => Variability::Continuous,
+        };
+        self.push(name, text, kind, (Causality::Output, variability), quantity);
+    }
+
     pub(super) fn push(
         &mut self,
         name: &str,

@@ -12,31 +12,7 @@ const STEEPEST_OPERATING: f64 = 7.0 * std::f64::consts::PI / 18.0;
 impl Builder<'_> {
     pub(super) fn parameters(&mut self) {
         let scene = self.scene;
-        let bearing = &scene.bearing;
-        match bearing.contact_angle {
-            None => self.parameter(
-                "bearing.radial_clearance",
-                "Radial internal clearance; negative is a preload",
-                Q::Parameter(Parameter::RadialClearance),
-                Unit::Metre,
-                Limited {
-                    start: bearing.radial_clearance,
-                    min: -bearing.element_diameter,
-                    max: bearing.element_diameter,
-                    nominal: 1e-5,
-                },
-            ),
-            Some(start) => self.parameter(
-                "bearing.contact_angle",
-                "Free contact angle, positive where the bearing takes pushes of the inner ring towards +z",
-                Q::Parameter(Parameter::ContactAngle),
-                Unit::Radian,
-                Limited { start, min: -STEEPEST, max: STEEPEST, nominal: 0.1 },
-            ),
-        }
-        if self.in_space() {
-            self.angle_and_across_damping();
-        }
+        self.clearance_and_angles();
         self.damping();
         self.push(
             "contact.law",
@@ -81,6 +57,35 @@ impl Builder<'_> {
                 (Causality::Parameter, Variability::Fixed),
                 Q::Parameter(Parameter::RecorderFolder),
             );
+        }
+    }
+
+    /// Clearance or free contact angle, and in space what goes with it.
+    fn clearance_and_angles(&mut self) {
+        let bearing = &self.scene.bearing;
+        match bearing.contact_angle {
+            None => self.parameter(
+                "bearing.radial_clearance",
+                "Radial internal clearance; negative is a preload",
+                Q::Parameter(Parameter::RadialClearance),
+                Unit::Metre,
+                Limited {
+                    start: bearing.radial_clearance,
+                    min: -bearing.element_diameter,
+                    max: bearing.element_diameter,
+                    nominal: 1e-5,
+                },
+            ),
+            Some(start) => self.parameter(
+                "bearing.contact_angle",
+                "Free contact angle, positive where the bearing takes pushes of the inner ring towards +z",
+                Q::Parameter(Parameter::ContactAngle),
+                Unit::Radian,
+                Limited { start, min: -STEEPEST, max: STEEPEST, nominal: 0.1 },
+            ),
+        }
+        if self.in_space() {
+            self.angle_and_across_damping();
         }
     }
 
@@ -234,7 +239,13 @@ impl Builder<'_> {
                 Limited { start: of.preload, min: 0.0, max: 1e9, nominal: 100.0 },
             ),
         ] {
-            self.parameter(&[name, ".", key].concat(), &[text, " of the ", what].concat(), Q::Parameter(parameter), unit, limited);
+            self.parameter(
+                &[name, ".", key].concat(),
+                &[text, " of the ", what].concat(),
+                Q::Parameter(parameter),
+                unit,
+                limited,
+            );
         }
     }
 

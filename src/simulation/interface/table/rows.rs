@@ -41,10 +41,7 @@ const PRESCRIBED: [Prescribed; 3] = [
         noun: Along { axis: "Position", tilt: "Tilt" },
         quantity: Q::Position,
         unit: Along { axis: Unit::Metre, tilt: Unit::Radian },
-        size: Along {
-            axis: Size { largest: 0.01, nominal: 1e-5 },
-            tilt: Size { largest: 0.05, nominal: 1e-3 },
-        },
+        size: Along { axis: Size { largest: 0.01, nominal: 1e-5 }, tilt: Size { largest: 0.05, nominal: 1e-3 } },
     },
     Prescribed {
         prefix: "v",
@@ -94,7 +91,10 @@ impl Builder<'_> {
                         let [letter, along] = COORDINATES[axis];
                         self.input(
                             &[of, [".load.", ".load_moment."][usize::from(axis > 2)], letter].concat(),
-                            &format!("External {} on the {what} {along}{letter}", ["load", "moment"][usize::from(axis > 2)]),
+                            &format!(
+                                "External {} on the {what} {along}{letter}",
+                                ["load", "moment"][usize::from(axis > 2)]
+                            ),
                             Q::Load(ring, axis),
                             Along { axis: Unit::Newton, tilt: Unit::NewtonMetre }.of(axis),
                             loads[axis],
@@ -132,7 +132,8 @@ impl Builder<'_> {
         for row in 0..count {
             for column in 0..count {
                 let ([a, along], [b, moved]) = (COORDINATES[row], COORDINATES[column]);
-                let (force, moves) = (Along { axis: "force", tilt: "moment" }, Along { axis: "displacement", tilt: "tilt" });
+                let (force, moves) =
+                    (Along { axis: "force", tilt: "moment" }, Along { axis: "displacement", tilt: "tilt" });
                 let unit = match (row > 2, column > 2) {
                     (false, false) => Unit::NewtonPerMetre,
                     (true, false) => Unit::Newton,
@@ -306,7 +307,13 @@ impl Builder<'_> {
                 for axis in self.moving(ring) {
                     let ([letter, along], noun) = (COORDINATES[axis], noun.of(axis));
                     let text = [noun, " of the ", what, " ", along, letter].concat();
-                    self.output(&name(of, prefix, axis), &text, quantity(ring, axis), unit.of(axis), size.of(axis).nominal);
+                    self.output(
+                        &name(of, prefix, axis),
+                        &text,
+                        quantity(ring, axis),
+                        unit.of(axis),
+                        size.of(axis).nominal,
+                    );
                 }
             }
         }
@@ -352,16 +359,6 @@ impl Builder<'_> {
         let derivatives = quantity.as_input().map_or("no derivative acts", |input| input.derivatives().1);
         let text = [text, "; ", derivatives].concat();
         self.push(name, &text, kind, (Causality::Input, Variability::Continuous), quantity);
-    }
-
-    pub(super) fn output(&mut self, name: &str, text: &str, quantity: Quantity, unit: Unit, nominal: f64) {
-        let kind = Kind::Real { unit, start: None, min: None, max: None, nominal };
-        let variability = match quantity {
-            // The mean belongs to the last communication step.
-            Q::MeanForce(..) => Variability::Discrete,
-            _ => Variability::Continuous,
-        };
-        self.push(name, text, kind, (Causality::Output, variability), quantity);
     }
 
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
