@@ -260,7 +260,8 @@ fn every_random_scene_in_space_is_a_possible_one() {
 fn random_scenes_in_space_agree_with_the_oracle() {
     let judged = std::sync::Mutex::new(Vec::new());
     for_seeds(12, |_, draw| {
-        let share = judge(&random(draw))?;
+        let case = random(draw);
+        let share = judge(&case).map_err(|why| format!("{why}\n{}{:?}", case.toml(), case.steps))?;
         judged.lock().unwrap().push(share);
         Ok(())
     });

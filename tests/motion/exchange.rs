@@ -237,11 +237,13 @@ fn a_ring_that_the_host_integrates_swings_as_one_inside() {
     // The same mass, once a state of the FMU and once of the host: no coupling error is left.
     let (mass, damping) = (3.0, 1376.8);
     let base = Scene { tolerance: 1e-11, ..shipped("6205-healthy") };
-    let ring = Ring { motion: Motion::Internal, load: [0.0, -1500.0], mass, damping, stiffness: 0.0 };
+    let (motion, load) = (Motion::Internal, [0.0, -1500.0]);
+    let ring = Ring { motion, load, mass, damping, stiffness: 0.0, ..base.shaft };
     let mut inside = started(Scene { shaft: ring, ..base.clone() });
     let start = [inside.get("shaft.x").unwrap(), inside.get("shaft.y").unwrap()];
     inside.set("shaft.load.y", -1800.0).unwrap();
-    let hosted = Ring { motion: Motion::Host, load: [0.0; 2], mass: 0.0, damping: 0.0, stiffness: 0.0 };
+    let (motion, load) = (Motion::Host, [0.0; 2]);
+    let hosted = Ring { motion, load, mass: 0.0, damping: 0.0, stiffness: 0.0, ..base.shaft };
     let mut bearing = Simulation::new(Scene { shaft: hosted, ..base }, None).unwrap();
     for (name, value) in [("shaft.x", start[0]), ("shaft.y", start[1])] {
         bearing.set(name, value).unwrap();
