@@ -100,6 +100,29 @@ fn a_run_that_is_read_has_the_bits_and_the_counts_of_one_that_is_not() {
 }
 
 #[test]
+fn at_a_loose_tolerance_steps_pass_contact_changes_and_accelerations_err_by_ten_times_the_tolerance_at_most() {
+    let run = |tolerance: f64| {
+        let mut bearing = Named::started(Scene { tolerance, ..passage(ContactLaw::Hertz) });
+        let acceleration = |_| {
+            bearing.run(2e-5, 1);
+            bearing.get("housing.ay")
+        };
+        let accelerations: Vec<f64> = (0..200).map(acceleration).collect();
+        (accelerations, bearing.count("solver.rejected_steps"))
+    };
+    let (exact, _) = run(1e-9);
+    let [(landing, many), (passing, few)] = [0.999e-3, 1e-3].map(run);
+    // Most steps that are rejected end on a change then.
+    assert!(2 * few < many, "{few} steps rejected of {many}");
+    let rms = |of: &dyn Fn(usize) -> f64| (0..exact.len()).map(|i| of(i) * of(i)).sum::<f64>().sqrt();
+    for found in [landing, passing] {
+        let error = rms(&|i| found[i] - exact[i]) / rms(&|i| exact[i]);
+        println!("{error:.1e}");
+        assert!(error < 1e-2, "{error:e}");
+    }
+}
+
+#[test]
 fn a_step_that_is_inspected_has_the_bits_of_one_that_is_not() {
     for law in LAWS {
         let (mut watched, mut alone) = (passing(law), passing(law));

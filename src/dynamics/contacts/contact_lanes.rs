@@ -11,7 +11,7 @@ use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::FilmsNow;
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Space, Stage};
 use crate::numerics::lanes::row::Row;
-use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, handed_on, sum_of};
+use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, blocks, blocks_mut, handed_on, sum_of};
 use crate::numerics::plane::{Vector, turned};
 
 /// The smooth contacts of elements at one instant.
@@ -36,6 +36,8 @@ struct Smooth<'a, E> {
 struct Found<S: Wide> {
     path_rate: Lanes<S>,
     acceleration: Lanes<S>,
+    /// Of the inner contact along x and y, and of the outer one.
+    forces: [Lanes<S>; 4],
     inner: Lanes<S>,
     normal: [Lanes<S>; 2],
     outer: Lanes<S>,
@@ -43,28 +45,38 @@ struct Found<S: Wide> {
     pushing: [Lanes<S>; 2],
 }
 
-/// Forces on the inner ring along x and y, then on the outer, by lanes.
-#[derive(Default)]
-pub(in crate::dynamics) struct Sums {
-    lanes: [[f64; WIDEST]; 4],
-    /// Where the next group of four belongs.
-    upper: bool,
-}
+/// Forces of contacts along x and y, inner and then outer ones, by lanes: eight sums each, whatever the registers.
+///
+/// In registers of their own kind: added to a half of eight numbers that is found out late, a sum would be written in
+/// quarters and read together, at 15 cycles each.
+pub(in crate::dynamics) struct Sums<S: Wide>([[Lanes<S>; 2]; 4]);
 
-impl Sums {
+impl<S: Wide> Sums<S> {
     #[inline(always)]
-    pub(in crate::dynamics) fn add<S: Wide>(&mut self, forces: [Lanes<S>; 4]) {
-        for (lanes, force) in self.lanes.iter_mut().zip(forces) {
-            force.add_to(lanes, self.upper);
+    pub(in crate::dynamics) fn new(simd: S) -> Self {
+        Self([[Lanes::splat(simd, 0.0); 2]; 4])
+    }
+
+    /// Adds forces on the elements of this part of a block.
+    #[inline(always)]
+    pub(in crate::dynamics) fn add(&mut self, part: usize, forces: [Lanes<S>; 4]) {
+        let half = part % (WIDEST / S::F64_LANES);
+        for (lanes, force) in self.0.iter_mut().zip(forces) {
+            lanes[half] = lanes[half] + force;
         }
-        self.upper = S::F64_LANES == QUAD && !self.upper;
     }
 
     /// Force on the inner ring, then on the outer, of the forces on elements that were added.
     #[inline(always)]
     pub(in crate::dynamics) fn on_rings(&self) -> [f64; 4] {
-        let [shaft_x, shaft_y, housing_x, housing_y] = self.lanes;
-        [-sum_of(shaft_x), -sum_of(shaft_y), sum_of(housing_x), sum_of(housing_y)]
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.0.each_ref().map(|halves| {
+            let mut lanes = [0.0; WIDEST];
+            for (part, half) in halves.iter().enumerate().take(WIDEST / S::F64_LANES) {
+                half.put(&mut lanes, part);
+            }
+            sum_of(lanes)
+        });
+        [-shaft_x, -shaft_y, housing_x, housing_y]
     }
 }
 
@@ -211,7 +223,7 @@ impl Model {
         let films = if UNEVEN_OR_OILED { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
         let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
-        let mut sums = Sums::default();
+        let mut sums = Sums::new(simd);
         if RECORD {
             contacts.outer_tangential.fill(0.0);
         }
@@ -223,8 +235,8 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found =
-                    smooth.contacts::<S, UNEVEN_OR_OILED>(simd, of(&state[k]), of(&state[w]), block, of, &mut sums);
+                let found = smooth.contacts::<S, UNEVEN_OR_OILED>(simd, of(&state[k]), of(&state[w]), block, of);
+                sums.add(part, found.forces);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {
@@ -267,7 +279,6 @@ impl<E: Elastic> Smooth<'_, E> {
         w: Lanes<S>,
         block: &ElementBlock,
         of: impl Fn(&[f64; WIDEST]) -> Lanes<S>,
-        sums: &mut Sums,
     ) -> Found<S> {
         let (model, now) = (self.model, self.now);
         let present = of(&block.present);
@@ -302,16 +313,15 @@ impl<E: Elastic> Smooth<'_, E> {
             + of(&block.other)
             + (dot(simd, self.body, e_r) + turning) * present;
 
-        sums.add([
-            inner * (n_r * e_r[0] - n_t * e_r[1]),
-            inner * (n_r * e_r[1] + n_t * e_r[0]),
-            outer * e_r[0],
-            outer * e_r[1],
-        ]);
-
         Found {
             path_rate: path_rate * present,
             acceleration,
+            forces: [
+                inner * (n_r * e_r[0] - n_t * e_r[1]),
+                inner * (n_r * e_r[1] + n_t * e_r[0]),
+                outer * e_r[0],
+                outer * e_r[1],
+            ],
             inner,
             normal: [n_r, n_t],
             outer,

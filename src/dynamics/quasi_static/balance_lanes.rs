@@ -54,7 +54,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
     fn elements<S: Wide, E: Elastic>(self, simd: S, elastic: E) -> [f64; 4] {
         let Self { model, now, stage, derivative, forces } = self;
         let shared = Shared::new(model, now, elastic);
-        let mut sums = Sums::default();
+        let mut sums = Sums::new(simd);
         let Forces { elements, contacts, .. } = forces;
         if RECORD {
             contacts.outer_tangential.fill(0.0);
@@ -71,7 +71,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                 let known = [of(&state[k]), of(&state[start + k])];
                 let element = shared.balanced(&at, known, stage.ahead).damped(&shared, &at);
                 element.path_rate.put(&mut derivative[k], part);
-                sums.add(element.forces(&at));
+                sums.add(part, element.forces(&at));
                 if RECORD {
                     element.keep(&at, contacts, k, part);
                 }

@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Samples in a period of the fastest oscillation, that of an element between its raceways. Beyond it forces and
 /// accelerations fall by 50 dB per decade, as impacts do that begin with a force ∝ t^1.5; what is left to fold at six
-/// times its frequency is 80 dB and more below the signal (docs/guide.md has the measured levels).
+/// times its frequency is 80 dB and more below the signal (docs/how-to/sensors.md has the measured levels).
 const OVERSAMPLING: f64 = 6.0;
 /// Highest sampling rate (Hz): that of a recorder without a filter.
 const HIGHEST_RATE: f64 = 1e7;
