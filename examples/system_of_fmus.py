@@ -35,25 +35,26 @@ from fmpy.ssp.ssd import ParameterSet, read_ssd
 
 HERE = Path(__file__).resolve().parent / "system"
 MASS, STIFFNESS, LOAD = 3.0, 1e7, 500.0  # kg, N/m, N
-GUID = ElementTree.parse(HERE / "rotor.xml").getroot().get("guid")
 GRID = 1e-4  # s between the positions that are compared
 MOTION = {"x": "shaft.x", "y": "shaft.y", "vx": "shaft.vx", "vy": "shaft.vy", "ax": "shaft.ax", "ay": "shaft.ay"}
 
 
-def rotor_fmu(folder):
-    """Compiles the rotor and packs it; gives the FMU's path."""
+def unit_fmu(folder, name, description):
+    """Compiles `system/<name>.c` and packs it with this model description; gives the FMU's path."""
     headers = Path(fmpy.__file__).parent / "c-code"
-    library = Path(folder) / f"rotor{fmpy.sharedLibraryExtension}"
+    library = Path(folder) / f"{name}{fmpy.sharedLibraryExtension}"
     compiler = shlex.split(os.environ.get("CC", "cc"))
-    words = ["-std=c11", "-O2", "-shared", "-fPIC", f'-DROTOR_GUID="{GUID}"', "-I", headers, HERE / "rotor.c"]
+    guid = ElementTree.fromstring(description).get("guid")
+    words = ["-std=c11", "-O2", "-shared", "-fPIC", f'-DUNIT_GUID="{guid}"', "-I", headers, HERE / f"{name}.c"]
     try:
         subprocess.run([*compiler, *map(str, words), "-lm", "-o", str(library)], check=True)
     except FileNotFoundError:
         raise SystemExit(f"{compiler[0]}: no such C compiler; name one by the environment's CC") from None
-    path = Path(folder) / "rotor.fmu"
+    path = Path(folder) / f"{name}.fmu"
     with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as fmu:
-        fmu.write(HERE / "rotor.xml", "modelDescription.xml")
-        fmu.write(HERE / "rotor.c", "sources/rotor.c")
+        fmu.writestr("modelDescription.xml", description)
+        for source in (f"{name}.c", "unit.h"):
+            fmu.write(HERE / source, f"sources/{source}")
         fmu.write(library, f"binaries/{fmpy.platform}/{library.name}")
     library.unlink()
     return path
@@ -284,7 +285,7 @@ def main():
     steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 5e-3 if options.short else 0.02
     fmus = fmus_in(options.output)
-    rotor = rotor_fmu(options.output)
+    rotor = unit_fmu(options.output, "rotor", (HERE / "rotor.xml").read_bytes())
     if not options.build:
         heads = ["bearing", "whose", "algorithm", "the rotor gets", *(f"{h * 1e6:g} µs" for h in steps)]
         print("| " + " | ".join(heads) + " |")

@@ -228,6 +228,10 @@ macro_rules! scenes {
 scenes! {
     epps_gives_the_numbers_it_gave "6205-epps"
     healthy_gives_the_numbers_it_gave "6205-healthy"
+    combined_load_gives_the_numbers_it_gave "6205-combined"
+    preloaded_7205_gives_the_numbers_it_gave "7205-preloaded"
+    inner_spall_of_a_7205_gives_the_numbers_it_gave "7205-inner"
+    one_of_a_pair_of_7205_gives_the_numbers_it_gave "7205-pair"
     hosted_gives_the_numbers_it_gave "6205-hosted"
     rotor_gives_the_numbers_it_gave "6205-rotor"
     inner_5deg_gives_the_numbers_it_gave "6205-inner-5deg"

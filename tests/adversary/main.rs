@@ -15,6 +15,7 @@ mod invariances;
 mod misuse;
 mod recordings;
 mod scenes;
+mod spatial;
 mod subject;
 #[path = "../support/mod.rs"]
 mod support;

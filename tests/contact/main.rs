@@ -12,6 +12,7 @@ mod inner;
 mod laws;
 mod map;
 mod pressure;
+mod pressure_limit;
 mod rigid_path;
 mod rollers;
 mod rollers_near_defects;

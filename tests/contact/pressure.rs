@@ -20,7 +20,13 @@ fn ball(groove: f64) -> BallOnRaceway {
         across: Across::Groove(groove),
         raceway: RacewaySide::Outer,
     };
-    BallOnRaceway { bodies, effective_modulus: 1.1e11, poissons_ratio: NU, defects: Vec::new() }
+    BallOnRaceway {
+        bodies,
+        effective_modulus: 1.1e11,
+        poissons_ratio: NU,
+        pressure_limit: f64::INFINITY,
+        defects: Vec::new(),
+    }
 }
 
 /// Pressure under a force so small that circles are paraboloids: errors of (a/r)², below 1e-5 here.
@@ -126,6 +132,7 @@ fn stresses_off_the_axis_are_in_equilibrium() {
         force: 8.0,
         pressure: vec![1.0, 3.0],
         depth: vec![0.0; 2],
+        dent: Vec::new(),
         residual: 0.0,
     };
     let corners = Corners::new(&pressed, NU, 1);

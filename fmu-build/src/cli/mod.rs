@@ -95,6 +95,7 @@ impl Command {
                     angle_deg: options.angle,
                     force: options.force,
                     resolution: options.resolution,
+                    pressure_limit: options.pressure_limit,
                     figure: !options.drawn.no_figure,
                 };
                 contact::command(project, &options.scene, &wanted, &options.drawn.folder(project, "contact"))

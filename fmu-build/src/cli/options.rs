@@ -14,7 +14,7 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Project, Version, delimiter, number, seed, speed, whole};
+use crate::shared::{Grid, Project, Version, delimiter, gigapascals, number, seed, speed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -237,6 +237,10 @@ pub struct Contact {
     /// Cells along and across the raceway, over the contact and a little more
     #[arg(long, value_name = "CELLS", default_value_t = 512)]
     pub(super) resolution: usize,
+    /// Largest pressure in GPa, from 1 to 20, at which the surface yields and stays dented: the indentation hardness, 6
+    /// to 7.5 of hardened bearing steel [default: none, the surface stays elastic]
+    #[arg(long = "yield", value_name = "GPA", allow_negative_numbers = true, value_parser = gigapascals)]
+    pub(super) pressure_limit: Option<f64>,
     #[command(flatten)]
     pub(super) drawn: Drawn,
 }

@@ -34,6 +34,8 @@ pub struct Options {
     pub force: f64,
     /// Cells in each direction.
     pub resolution: usize,
+    /// Largest pressure (GPa), at which the surface yields.
+    pub pressure_limit: Option<f64>,
     /// Whether to draw.
     pub figure: bool,
 }
@@ -42,14 +44,15 @@ pub struct Options {
 const SURFACE_LINES: usize = 64;
 
 /// The command: prints the summary, and writes `<folder>/<scene>-contact.json`, `-pressure.csv`, `-surface.csv`,
-/// `-depth.csv`, `-plane.csv` and, if wanted, a figure.
+/// with a pressure limit `-dent.csv`, `-depth.csv`, `-plane.csv` and, if wanted, a figure.
 pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path) -> Result<()> {
     let SceneFiles { scene: read, profiles, .. } = read_all(scene)?;
     let about = || scene.display().to_string();
     let side = if options.on == On::Outer { RacewaySide::Outer } else { RacewaySide::Inner };
     let angle = options.angle_deg.to_radians();
-    let ball = BallOnRaceway::of(&read, profiles.iter().map(|profile| profile.text.as_str()), side, angle)
+    let mut ball = BallOnRaceway::of(&read, profiles.iter().map(|profile| profile.text.as_str()), side, angle)
         .with_context(about)?;
+    ball.pressure_limit = options.pressure_limit.map_or(f64::INFINITY, |limit| 1e9 * limit);
     let pressed = ball.pressed(options.force, options.resolution).with_context(about)?;
     let section = Section::of(&ball, &pressed);
     let mut report = ContactReport::new(&read.name, side, options.angle_deg, options.force, &ball, &pressed, &section);
@@ -62,6 +65,9 @@ pub fn command(project: &Project, scene: &Path, options: &Options, folder: &Path
     whole_file::write(&beside(&stem, ".json"), text + "\n")?;
     whole_file::write_with(&beside(&stem, "-pressure.csv"), |mut out| write_pressure(&mut out, &pressed))?;
     whole_file::write_with(&beside(&stem, "-surface.csv"), |mut out| write_surface(&mut out, &pressed))?;
+    if !pressed.dent.is_empty() {
+        whole_file::write_with(&beside(&stem, "-dent.csv"), |mut out| write_dent(&mut out, &pressed))?;
+    }
     let hertz: Vec<f64> = section.hertz.iter().map(Stress::von_mises).collect();
     let depth = |mut out: &mut (dyn Write + Send)| write_stresses(&mut out, &section.depth, &hertz);
     whole_file::write_with(&beside(&stem, "-depth.csv"), depth)?;
@@ -93,6 +99,16 @@ fn write_pressure(out: &mut impl Write, pressed: &Pressed) -> Result<()> {
     for cell in pressed.under_pressure() {
         let [x, y] = pressed.centre(cell);
         csv::row(out, [x, y, pressed.pressure[cell]].into_iter())?;
+    }
+    Ok(())
+}
+
+/// Depth of what stays dented, beyond that of the defects.
+fn write_dent(out: &mut impl Write, pressed: &Pressed) -> Result<()> {
+    csv::header(out, [("x", "m"), ("y", "m"), ("dent", "m")].into_iter())?;
+    for cell in (0..pressed.dent.len()).filter(|&cell| pressed.dent[cell] > 0.0) {
+        let [x, y] = pressed.centre(cell);
+        csv::row(out, [x, y, pressed.dent[cell]].into_iter())?;
     }
     Ok(())
 }

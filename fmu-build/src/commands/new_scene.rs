@@ -93,6 +93,8 @@ fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>, axial: Op
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
     let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
     let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
+    // One shoulder of an angular contact bearing is high, and the other cut away.
+    let share = if inside.contact_angle.is_some() { 0.3 } else { 0.2 };
     // A contact that leans lifts a ring that nothing pushes along the axis.
     let (axial, axial_source) = match (axial, inside.contact_angle) {
         (Some(axial), _) => (Some(axial), "as asked for"),
@@ -120,8 +122,9 @@ fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>, axial: Op
         }),
         axial => axial.map(|axial| axial.to_string()),
         axial_source,
-        angle => inside.contact_angle.map(|angle| format!("{angle:<17?}")),
-        shoulder => format!("{:<17.2}", 0.2 * inside.element_diameter),
+        angle => inside.contact_angle.map(|angle| format!("{angle:<15?}")),
+        shoulder => format!("{:<15.2}", share * inside.element_diameter),
+        share,
         spall => spall.map(defect),
     };
     render("new_scene.toml", include_str!("../../assets/new_scene.toml"), values)

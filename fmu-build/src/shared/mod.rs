@@ -20,4 +20,4 @@ pub use python::Python;
 pub use whole_file::NotWritten;
 
 pub(crate) use digits::digits;
-pub(crate) use numbers::{delimiter, number, seed, speed, whole};
+pub(crate) use numbers::{delimiter, gigapascals, number, seed, speed, whole};

@@ -17,6 +17,15 @@ pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| "it must be a whole number, 0 or more".to_owned())
 }
 
+/// A pressure in gigapascals, from 1 to 20, as `6` or `6GPa`: softer than any raceway to harder than any.
+pub(crate) fn gigapascals(text: &str) -> Result<f64, String> {
+    let text = text.trim().to_ascii_lowercase();
+    let value = text.strip_suffix("gpa").unwrap_or(&text).trim().parse().ok();
+    value
+        .filter(|limit| (1.0..=20.0).contains(limit))
+        .ok_or_else(|| "it must be a number of GPa from 1 to 20".to_owned())
+}
+
 /// A speed in hertz: a number of them, or one with its unit.
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let text = text.trim().to_ascii_lowercase();

@@ -23,6 +23,8 @@ const ERROR: &str = "python examples/coupling_error.py --short";
 const SWEEP: &str = "python examples/sweep.py examples/sweep.toml -o target/labelled";
 const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
 const SYSTEM: &str = "python examples/system_of_fmus.py --short";
+const PAIR: &str = "python examples/pair_of_bearings.py --build";
+const PAIRS: &str = "python examples/pair_of_bearings.py --short";
 /// What this file's environment or another test does.
 const SET_UP: [&str; 6] = [
     "python3 -m venv target/examples-env",
@@ -119,7 +121,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM];
+    let known = [RIGID, ROSS, ROSS_ITSELF, ERROR, SWEEP, SYSTEMS, SYSTEM, PAIR, PAIRS];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {
@@ -192,6 +194,41 @@ fn two_bearings_carry_a_rigid_rotor() {
         assert!((found / expected - 1.0).abs() < 0.05, "{name}: {found}, expected {expected}");
     }
     assert!(said["largest_sensor_m_s2"].as_f64().unwrap() > 1.0, "the spall is felt: {said}");
+}
+
+#[test]
+fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
+    let folder = common::folder("example-pair");
+    let said = run(PAIR, &folder);
+    let systems: Vec<&str> = said.lines().filter(|line| line.ends_with(".ssp")).collect();
+    assert_eq!(systems.len(), 2, "{said}");
+    for system in systems {
+        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
+        assert_eq!(archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
+    }
+    common::python().run("validate.py", [folder.join("shaft.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+    // Two bearings of 25 degrees closed by 5 µm each hold 9.55e7 N/m at rest; at 50 Hz balls press the inner
+    // ring a little less.
+    let stiffness: f64 = said.split_once("stiffness: ").unwrap().1.split(' ').next().unwrap().parse().unwrap();
+    assert!((stiffness / 9.55e7 - 1.0).abs() < 0.01, "{stiffness:e} N/m");
+
+    let rows = table(&run(PAIRS, &folder), 3);
+    assert_eq!(rows.len(), 6);
+    let here = page("systems.md");
+    // Steps of 5 µs over the first 2 ms. Limits: twice what was found.
+    for (told, limit) in [
+        ("plain host tangent stiffness `mean_force`", 0.04),
+        ("ours parallel `force`, held", 8.0),
+        ("ours parallel `force` and its derivative", 0.08),
+        ("ours sequential `force`, interpolated", 0.04),
+        ("ours sequential `mean_force`, held", 0.04),
+        ("fmpy parallel, begins with 0 `force`, held", 15.0),
+    ] {
+        let (_, cells) = rows.iter().find(|(row, _)| row == told).unwrap_or_else(|| panic!("no row {told}"));
+        assert!(percent(&cells[0]) < limit, "{told}: {cells:?}");
+        let row = here.lines().find(|line| line.trim_matches('|').replace(" | ", " ").trim_start().starts_with(told));
+        assert!(row.is_some(), "not in the page: {told}");
+    }
 }
 
 #[test]

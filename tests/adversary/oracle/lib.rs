@@ -28,6 +28,7 @@ mod rates;
 mod ring_rates;
 pub mod run;
 pub mod signals;
+pub mod spatial;
 pub mod surface;
 pub mod surfaces;
 pub mod turning;

@@ -7,6 +7,11 @@
 //! inverse of the periodic kernel, restricted to the set. A cold start takes its pressure from the same problem on a
 //! grid of half as many cells, and that from a quarter.
 //!
+//! With a limit H of the pressure, 0 ≤ p ≤ H, cells above it leave the set with pressure H, and come back where the gap
+//! would open: what is left of the interference there is the depth of a dent that stays. That is perfect plasticity of
+//! the surface, without hardening and without material piled up; H is the indentation hardness, three times the yield
+//! stress.
+//!
 //! For stored problems and reference solutions; last digits depend on the machine's registers. Warm, or with few
 //! unknowns, [`GridActiveSet`](super::GridActiveSet) is faster.
 
@@ -35,6 +40,8 @@ struct Level {
     product: Vec<f64>,
     /// One on cells of the set, nought elsewhere.
     active: Vec<f64>,
+    /// Largest pressure over π E*.
+    highest: f64,
 }
 
 /// The solver for one problem.
@@ -50,6 +57,23 @@ impl<'a> ConjugateGradients<'a> {
     /// # Errors
     /// [`ContactError::BadInput`] for a tolerance that rounding does not allow.
     pub fn new(problem: &'a GridProblem, tolerance: f64) -> Result<Self, ContactError> {
+        Self::limited(problem, tolerance, f64::INFINITY)
+    }
+
+    /// The same with a largest pressure (Pa), infinite of bodies that stay elastic.
+    ///
+    /// # Errors
+    /// As [`ConjugateGradients::new`], and for a pressure that is not above 0.
+    pub fn limited(problem: &'a GridProblem, tolerance: f64, highest: f64) -> Result<Self, ContactError> {
+        if !(highest > 0.0) {
+            return Err(ContactError::BadInput {
+                quantity: "pressure limit",
+                value: highest,
+                unit: "Pa",
+                limit: "above 0".to_owned(),
+            });
+        }
+        let highest = problem.scaled(highest);
         if !(1e-13..1.0).contains(&tolerance) {
             return Err(ContactError::BadInput {
                 quantity: "residual asked for",
@@ -58,7 +82,8 @@ impl<'a> ConjugateGradients<'a> {
                 limit: "between 1e-13 and 1".to_owned(),
             });
         }
-        let mut levels = vec![Level::new(problem.columns(), problem.rows(), problem.cell(), problem.gap().to_vec())];
+        let (n, m) = (problem.columns(), problem.rows());
+        let mut levels = vec![Level::new([n, m], problem.cell(), problem.gap().to_vec(), highest)];
         let mut cell = problem.cell();
         while let Some(fine) = levels.last() {
             let (n, m) = (fine.columns, fine.rows);
@@ -75,7 +100,7 @@ impl<'a> ConjugateGradients<'a> {
                     );
                 }
             }
-            levels.push(Level::new(n / 2, m / 2, cell, gap));
+            levels.push(Level::new([n / 2, m / 2], cell, gap, highest));
         }
         Ok(Self { problem, tolerance, levels })
     }
@@ -93,8 +118,10 @@ impl GridSolver for ConjugateGradients<'_> {
                 solution = Some(Coarse { columns: level.columns, pressure: level.pressure.clone() });
             }
         }
-        let scaled = self.levels[0].pressure.clone();
-        self.problem.finish(approach, scaled, reached.residual / approach.abs(), reached.iterations)
+        let (finest, residual) = (&self.levels[0], reached.residual / approach.abs());
+        let mut contact = self.problem.finish(approach, finest.pressure.clone(), residual, reached.iterations)?;
+        contact.dent = finest.dent();
+        Ok(contact)
     }
 
     fn first_touch(&self) -> f64 {
@@ -117,7 +144,7 @@ struct Reached {
 }
 
 impl Level {
-    fn new(columns: usize, rows: usize, cell: [f64; 2], gap: Vec<f64>) -> Self {
+    fn new([columns, rows]: [usize; 2], cell: [f64; 2], gap: Vec<f64>, highest: f64) -> Self {
         let zero = vec![0.0; columns * rows];
         Self {
             columns,
@@ -132,7 +159,17 @@ impl Level {
             direction: zero.clone(),
             product: zero.clone(),
             active: zero,
+            highest,
         }
+    }
+
+    /// What is left of the interference where the pressure is the largest allowed; nothing where there is no limit.
+    fn dent(&self) -> Vec<f64> {
+        if self.highest.is_infinite() {
+            return Vec::new();
+        }
+        let left = self.interference.iter().zip(&self.deflection).map(|(g, u)| (g - u).max(0.0));
+        left.zip(&self.pressure).map(|(left, &p)| if p >= self.highest { left } else { 0.0 }).collect()
     }
 
     /// Pressure from the coarser grid, bilinear; or none, with the set of cells whose interference exceeds half the
@@ -167,8 +204,12 @@ impl Level {
                 }
             }
         }
-        for (p, &active) in self.pressure.iter_mut().zip(&self.active) {
-            *p *= active;
+        for (p, active) in self.pressure.iter_mut().zip(&mut self.active) {
+            if *p >= self.highest {
+                (*p, *active) = (self.highest, 0.0);
+            } else {
+                *p *= *active;
+            }
         }
     }
 
@@ -189,10 +230,12 @@ impl Level {
             if residual <= limit && pull == 0.0 {
                 return Ok(Reached { residual, iterations });
             }
+            let mut fresh_set = false;
             // The set is changed when its own equation is solved well enough to tell, the better the longer it takes.
             if open <= penetration.max(limit) || (pull > 0.0 && open <= 0.3 * best) {
                 best = open.min(best);
-                fresh |= self.change_set(limit);
+                fresh_set = self.change_set(limit);
+                fresh |= fresh_set;
             }
             iterations += 1;
             self.fft.approximate_inverse(&self.residual, &mut self.preconditioned);
@@ -205,6 +248,11 @@ impl Level {
             self.fft.multiply(&self.direction, &mut self.product);
             let curvature = dot(&self.direction, &self.product);
             if !(curvature > 0.0) {
+                // All that was in the set came to the limit: what interpenetrates now enters it.
+                if fresh_set && self.highest.is_finite() {
+                    (step, fresh) = (0.0, true);
+                    continue;
+                }
                 break;
             }
             step = next / curvature;
@@ -212,7 +260,8 @@ impl Level {
         Err(ContactError::NotConverged { iterations, residual, limit })
     }
 
-    /// Goes a step along the direction; largest |g − u| on the set, largest g − u outside it, largest pull.
+    /// Goes a step along the direction; largest |g − u| on the set, largest g − u outside it or u − g where the
+    /// pressure is at its limit, and by how much one pulls or is above that.
     fn advance(&mut self, step: f64) -> [f64; 3] {
         let [mut open, mut penetration, mut pull] = [0.0_f64; 3];
         for c in 0..self.pressure.len() {
@@ -221,13 +270,15 @@ impl Level {
             let gap = self.interference[c] - self.deflection[c];
             self.residual[c] = self.active[c] * gap;
             open = open.max(self.residual[c].abs());
-            penetration = penetration.max(gap - self.residual[c]);
-            pull = pull.max(-self.pressure[c]);
+            let outside = gap - self.residual[c];
+            penetration = penetration.max(if self.pressure[c] >= self.highest { -outside } else { outside });
+            pull = pull.max(-self.pressure[c]).max(self.active[c] * (self.pressure[c] - self.highest));
         }
         [open, penetration, pull]
     }
 
-    /// Drops cells that pull and adds cells that interpenetrate; whether there were any.
+    /// Drops cells that pull or are above the limit, and adds cells that interpenetrate, or that the limit would leave
+    /// open; whether there were any.
     fn change_set(&mut self, limit: f64) -> bool {
         let (mut dropped, mut added) = (false, false);
         for (((p, active), &g), &u) in
@@ -235,7 +286,9 @@ impl Level {
         {
             if *p < 0.0 {
                 (*p, *active, dropped) = (0.0, 0.0, true);
-            } else if *active == 0.0 && g - u > 0.5 * limit {
+            } else if *active != 0.0 && *p > self.highest {
+                (*p, *active, dropped) = (self.highest, 0.0, true);
+            } else if *active == 0.0 && (if *p >= self.highest { u - g } else { g - u }) > 0.5 * limit {
                 (*active, added) = (1.0, true);
             }
         }

@@ -79,6 +79,8 @@ pub struct BallOnRaceway {
     pub effective_modulus: f64,
     /// Poisson's ratio of both bodies.
     pub poissons_ratio: f64,
+    /// Largest pressure (Pa), at which the surface yields; infinite where it stays elastic.
+    pub pressure_limit: f64,
     /// The raceway's defects.
     pub defects: Vec<DefectBelow>,
 }
@@ -112,6 +114,8 @@ pub struct Pressed {
     pub pressure: Vec<f64>,
     /// Mean depth of the raceway's defects in each cell (m).
     pub depth: Vec<f64>,
+    /// Depth of what stays dented in each cell (m); empty where the surface stays elastic.
+    pub dent: Vec<f64>,
     /// Largest gap where pressed, or penetration where not, over the approach since the first touch.
     pub residual: f64,
 }
@@ -157,6 +161,7 @@ impl BallOnRaceway {
             bodies: ElementOnRaceway::of(bearing, side).checked()?,
             effective_modulus: effective_modulus(bearing),
             poissons_ratio: bearing.poissons_ratio,
+            pressure_limit: f64::INFINITY,
             defects: there.into_iter().map(|(of, surface)| DefectBelow { surface, arc: arc(of.angle) }).collect(),
         })
     }
@@ -176,7 +181,8 @@ impl BallOnRaceway {
         let cell = half_axes.map(|half| 2.0 * half / resolution as f64);
         let none = vec![0.0; resolution * resolution];
         let (pressure, depth) = (none.clone(), none);
-        let mut pressed = Pressed { cells, cell, middle: [0.0; 2], approach, force, pressure, depth, residual: 0.0 };
+        let (middle, dent, residual) = ([0.0; 2], Vec::new(), 0.0);
+        let mut pressed = Pressed { cells, cell, middle, approach, force, pressure, depth, dent, residual };
         for at in 0..pressed.pressure.len() {
             let [x, y] = pressed.centre(at);
             let [x, y] = [x / half_axes[0], y / half_axes[1]];
@@ -263,11 +269,11 @@ impl BallOnRaceway {
         let touch = gap.iter().fold(f64::INFINITY, |m, &h| m.min(h));
         gap.iter_mut().for_each(|h| *h -= touch);
         let problem = GridProblem::new(n, n, cell, modulus, gap, Border::Window)?;
-        let contact = at_force(&mut ConjugateGradients::new(&problem, RESIDUAL)?, force, guess)?;
-        let GridContact { approach, pressure, force, residual, .. } = contact;
-        let cells = [n, n];
-        let pressed = Pressed { cells, cell, middle, approach: touch + approach, force, pressure, depth, residual };
-        Ok((pressed, approach))
+        let contact =
+            at_force(&mut ConjugateGradients::limited(&problem, RESIDUAL, self.pressure_limit)?, force, guess)?;
+        let (cells, GridContact { approach: since, pressure, force, dent, residual, .. }) = ([n, n], contact);
+        let approach = touch + since;
+        Ok((Pressed { cells, cell, middle, approach, force, pressure, depth, dent, residual }, since))
     }
 }
 
@@ -320,6 +326,16 @@ impl Pressed {
     /// The cell with the largest pressure.
     pub fn highest_cell(&self) -> usize {
         self.under_pressure().max_by(|&a, &b| self.pressure[a].total_cmp(&self.pressure[b])).unwrap_or(0)
+    }
+
+    /// Depth of the deepest dent (m), its length along the raceway where it is deepest (m), and its middle along and
+    /// across (m); `None` of a surface that keeps its shape.
+    pub fn deepest_dent(&self) -> Option<(f64, f64, [f64; 2])> {
+        let deepest = (0..self.dent.len()).max_by(|&a, &b| self.dent[a].total_cmp(&self.dent[b]))?;
+        let row = deepest / self.cells[0] * self.cells[0];
+        let long = self.dent[row..row + self.cells[0]].iter().filter(|&&dent| dent > 0.0).count();
+        let depth = self.dent[deepest];
+        (depth > 0.0).then(|| (depth, long as f64 * self.cell[0], self.centre(deepest)))
     }
 
     /// Area under pressure (m²).

@@ -39,6 +39,8 @@ pub struct GridContact {
     pub pressure: Vec<f64>,
     /// Total force (N).
     pub force: f64,
+    /// Depth (m) of what stays dented where the pressure is at its limit; empty of bodies that stay elastic.
+    pub dent: Vec<f64>,
     /// Largest of: |gap| where pressed, penetration where not; over the approach.
     pub residual: f64,
     /// Iterations of the solver.
@@ -234,6 +236,11 @@ impl GridProblem {
         }
     }
 
+    /// A pressure (Pa) over π E*.
+    pub(super) fn scaled(&self, pressure: f64) -> f64 {
+        pressure / (std::f64::consts::PI * self.effective_modulus)
+    }
+
     /// Turns pressures over π E* into a contact, after the check of the border.
     pub(super) fn finish(
         &self,
@@ -257,7 +264,7 @@ impl GridProblem {
             sum += *p;
         }
         let force = sum * self.cell[0] * self.cell[1];
-        Ok(GridContact { approach, pressure, force, residual, iterations })
+        Ok(GridContact { approach, pressure, force, dent: Vec::new(), residual, iterations })
     }
 }
 

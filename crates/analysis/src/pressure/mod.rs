@@ -13,5 +13,5 @@ pub use contact_pressure::{BallOnRaceway, Hertz, Pressed, PressureError};
 pub use defect_below::DefectBelow;
 pub use fft_product::FftProduct;
 pub use grid::{Border, GridActiveSet, GridContact, GridProblem, GridSolver};
-pub use report::{ContactReport, Highest, PatchReport, Section, StressAt, StressReport};
+pub use report::{ContactReport, DentReport, Highest, PatchReport, Section, StressAt, StressReport};
 pub use subsurface::{Corners, Stress, maximum};

@@ -23,6 +23,11 @@ const FEW: f64 = 16.0;
 /// leaves a dent of a ten-thousandth of the ball's diameter.
 const STATIC_LIMIT: f64 = 4.2e9;
 
+/// What a pressure limit is not.
+const LIMITED: &str = "the pressure is limited as an indentation's: perfect plasticity of the surface, which knows no \
+                       hardening, no residual stress and no material that piles up; stresses are those of the limited \
+                       pressure on an elastic body";
+
 /// A stress and where it is.
 #[derive(Debug, Clone, Copy)]
 pub struct StressAt {
@@ -99,6 +104,9 @@ pub struct ContactReport {
     pub residual: f64,
     /// The contact.
     pub found: PatchReport,
+    /// What stays dented; left out of a surface that keeps its shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dent: Option<DentReport>,
     /// Hertz's on the smooth raceway.
     pub hertz: PatchReport,
     /// Below the patch.
@@ -120,6 +128,19 @@ pub struct PatchReport {
     pub half_axes_mm: [f64; 2],
     /// Area under pressure (mm²).
     pub area_mm2: f64,
+}
+
+/// What a pressure at its limit leaves.
+#[derive(Debug, Clone, Serialize)]
+pub struct DentReport {
+    /// Largest pressure that was allowed (MPa).
+    pub pressure_limit_mpa: f64,
+    /// Depth where it is deepest (µm).
+    pub depth_um: f64,
+    /// Its length along the raceway there (mm).
+    pub length_mm: f64,
+    /// Where that is, along and across from the point below the ball's centre (mm).
+    pub at_mm: [f64; 2],
 }
 
 /// Von Mises stresses.
@@ -172,6 +193,12 @@ impl ContactReport {
                 half_axes_mm: pressed.half_axes().map(|half| 1e3 * half),
                 area_mm2: 1e6 * pressed.area(),
             },
+            dent: pressed.deepest_dent().map(|(depth, length, at)| DentReport {
+                pressure_limit_mpa: 1e-6 * ball.pressure_limit,
+                depth_um: 1e6 * depth,
+                length_mm: 1e3 * length,
+                at_mm: at.map(|at| 1e3 * at),
+            }),
             hertz: PatchReport {
                 approach_um: 1e6 * hertz.approach,
                 max_pressure_mpa: 1e-6 * hertz.max_pressure,
@@ -213,7 +240,9 @@ impl Highest {
 fn notes(ball: &BallOnRaceway, pressed: &Pressed) -> Vec<String> {
     let mut notes = Vec::new();
     let most = pressed.max_pressure();
-    if most > STATIC_LIMIT {
+    if ball.pressure_limit.is_finite() {
+        notes.push(LIMITED.to_owned());
+    } else if most > STATIC_LIMIT {
         notes.push(format!(
             "the largest pressure, {:.0} MPa, is above {:.0} MPa, up to which ISO 76 takes balls and raceways to keep \
              their shape: all stresses are elastic ones, real steel yields",
@@ -231,7 +260,8 @@ fn notes(ball: &BallOnRaceway, pressed: &Pressed) -> Vec<String> {
         }
     }
     let [from, to] = extent[0];
-    if ball.edges().any(|edge| edge > from - (to - from) && edge < to + (to - from)) {
+    let sharp = ball.pressure_limit.is_infinite();
+    if sharp && ball.edges().any(|edge| edge > from - (to - from) && edge < to + (to - from)) {
         notes.push(
             "an edge is at the contact: the pressure there, and the stress just below, grow without bound as cells are \
              made smaller, the force and the approach do not"

@@ -1,8 +1,8 @@
 //! Lists of two or three values. An array that serde reads ends after its last value, whatever follows in the file.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Deserialize;
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
@@ -39,6 +39,13 @@ impl<'de> Deserialize<'de> for Vector {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let all = deserializer.deserialize_seq(Values { least: 2, most: 3, of: PhantomData })?;
         Ok(Self { across: [all[0], all[1]], axial: all.get(2).copied() })
+    }
+}
+
+/// What holds without the key stands in the schema.
+impl Serialize for Vector {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.across.into_iter().chain(self.axial))
     }
 }
 

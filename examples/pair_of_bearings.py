@@ -1,0 +1,369 @@
+#!/usr/bin/env python3
+"""A rigid shaft in two preloaded angular contact bearings: error over host and step, and the system as an SSP file.
+
+    python examples/pair_of_bearings.py [--build] [--short] [--mounted O] [-o target/examples]
+
+Both bearings are one FMU, of scenes/7205-pair.toml; the right one is mounted the other way by its parameter
+`bearing.contact_angle`. `--mounted` says how: O back to back, X face to face, T in tandem. The shaft (3 kg, 60 mm
+between the bearings) is closer to each by 5 um than where it just closes; in tandem a load of 300 N along the axis
+preloads both. It rests; at the start 300 N across, 100 N along the axis and 2 N m are added.
+
+`--build` writes the system only, `pair-O.ssp`: the two bearings and examples/system/shaft.c, compiled here with the C
+compiler that CC names, else `cc`.
+
+Hosts:
+  tangent   a plain host in this file: the shaft's motion over a step by the bearings' tangent stiffness, 5 x 5, its
+            velocity then by the mean forces and moments that came out
+  ours      algorithms of system_of_fmus.py on the SSP file: parallel and sequential, with the standard's functions
+  fmpy      fmpy.ssp.simulation: parallel, held, and every input 0 in the first step
+The error is that of all five coordinates of the shaft, rms over rms of their way, tilts times half the distance of the
+bearings, against `tangent` at half a microsecond.
+"""
+
+import argparse
+import math
+import zipfile
+from pathlib import Path
+
+import numpy as np
+from bearing import SCENES, Instance, build, percent, unzipped, whole
+from fmpy.fmi1 import FMICallException
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import ParameterSet, read_ssd
+from system_of_fmus import Unit, connector, parameters_of, step, unit_fmu
+
+MASS, TRANSVERSE, POLAR = 3.0, 8e-3, 2e-3  # kg, kg m2
+SPEED = 100.0 * math.pi  # rad/s
+PLACES = {"left": -0.03, "right": 0.03}  # m
+PRELOAD = 5e-6  # m
+ADDED = np.array([0.0, -300.0, 100.0, 2.0, 0.0])  # N, N m
+ANGLE = math.radians(25.0)
+GRID = 1e-4  # s between the positions that are compared
+AXES = ("x", "y", "z", "tilt.x", "tilt.y")
+# Of one bearing: its inputs in the order of the shaft's outputs, and what it gives back.
+MOTION = [f"shaft.{order}{axis}" for order in ("", "v", "a") for axis in "xyz"]
+MOTION += [f"shaft.tilt.{order}{axis}" for order in ("", "v", "a") for axis in "xy"]
+FORCES = {
+    kind: [f"shaft.{kind}force.{axis}" for axis in "xyz"] + [f"shaft.{kind}moment.{axis}" for axis in "xy"]
+    for kind in ("", "mean_")
+}
+SIZES = np.array([1.0, 1.0, 1.0, PLACES["right"], PLACES["right"]])
+
+
+def angles(mounted):
+    """Contact angle of each bearing: a positive one carries pushes of the shaft towards +z."""
+    left, right = {"O": (1, -1), "X": (-1, 1), "T": (1, 1)}[mounted]
+    return {"left": left * ANGLE, "right": right * ANGLE}
+
+
+def offsets(mounted):
+    """By how much farther along z each inner ring sits than the shaft: so that a pair closes."""
+    return {name: 0.0 if mounted == "T" else math.copysign(PRELOAD, angle) for name, angle in angles(mounted).items()}
+
+
+def standing_load(mounted):
+    return np.array([0.0, 0.0, 300.0 if mounted == "T" else 0.0, 0.0, 0.0])
+
+
+def moved(name, mounted):
+    """How a bearing's ring follows the shaft: position = matrix @ shaft + offset."""
+    b, matrix = PLACES[name], np.eye(5)
+    matrix[0, 4], matrix[1, 3] = b, -b
+    return matrix, np.array([0.0, 0.0, offsets(mounted)[name], 0.0, 0.0])
+
+
+class Plain:
+    """The plain host: a rigid shaft in two bearings, by Newton's law and the bearings' tangent stiffness."""
+
+    def __init__(self, fmu, mounted):
+        self.bearings = {name: Instance(fmu, name) for name in PLACES}
+        for name, bearing in self.bearings.items():
+            bearing.enter({"bearing.contact_angle": angles(mounted)[name], "shaft.speed": SPEED})
+        self.seats = {name: moved(name, mounted) for name in PLACES}
+        self.load = standing_load(mounted)
+        self.mass = np.diag([MASS] * 3 + [TRANSVERSE] * 2)
+        self.turning = np.zeros((5, 5))
+        self.turning[3, 4], self.turning[4, 3] = POLAR * SPEED, -POLAR * SPEED
+        self.q, self.v = self.rest(), np.zeros(5)
+        for bearing in self.bearings.values():
+            bearing.run()
+
+    def say(self, acceleration):
+        for name, bearing in self.bearings.items():
+            matrix, offset = self.seats[name]
+            at, speed, change = matrix @ self.q + offset, matrix @ self.v, matrix @ acceleration
+            values = [*at[:3], *speed[:3], *change[:3], *at[3:], *speed[3:], *change[3:]]
+            bearing.write(MOTION, values)
+
+    def force(self, kind=""):
+        """Of both bearings on the shaft: forces, and moments about its middle."""
+        pushes = ((self.seats[name][0], bearing.read(FORCES[kind])) for name, bearing in self.bearings.items())
+        return sum(matrix.T @ push for matrix, push in pushes)
+
+    def stiffness(self):
+        total = np.zeros((5, 5))
+        short = [axis.replace(".", "_") for axis in AXES]
+        for name, bearing in self.bearings.items():
+            matrix, _ = self.seats[name]
+            own = bearing.read([stiffness_name(a, b) for a in short for b in short]).reshape(5, 5)
+            total += matrix.T @ own @ matrix
+        return total
+
+    def rest(self):
+        """Newton's iteration during initialization: elements and housing are in balance at every try."""
+        self.q, self.v = np.array([0.0, 0.0, 5e-6 if self.load[2] else 0.0, 0.0, 0.0]), np.zeros(5)
+        for _ in range(50):
+            self.say(np.zeros(5))
+            change = np.linalg.solve(self.stiffness(), self.force() + self.load)
+            self.q = self.q + change
+            if np.abs(change * SIZES).max() < 1e-15:
+                break
+        self.say(np.zeros(5))
+        return self.q
+
+    def step(self, h):
+        force, k = self.force() + self.load - self.turning @ self.v, self.stiffness()
+        # Trapezoidal rule on the linearized force.
+        left = self.mass + 0.25 * h * h * k + 0.5 * h * self.turning
+        change = np.linalg.solve(left, h * force - 0.5 * h * h * k @ self.v)
+        self.say(change / h)
+        for bearing in self.bearings.values():
+            bearing.step(h)
+        self.q = self.q + h * (self.v + 0.5 * change)
+        turned = self.turning @ (self.v + 0.5 * change)
+        self.v = self.v + h * np.linalg.solve(self.mass, self.force("mean_") + self.load - turned)
+
+    def close(self):
+        for bearing in self.bearings.values():
+            bearing.close()
+
+
+def stiffness_name(a, b):
+    return f"shaft.stiffness.{a}{b}" if len(a) == len(b) == 1 else f"shaft.stiffness.{a}_{b}"
+
+
+def by_tangent(fmu, mounted, h, stop):
+    host = Plain(fmu, mounted)
+    host.load = host.load + ADDED
+    found, every = [host.q], round(GRID / h)
+    for count in range(1, round(stop / h) + 1):
+        host.step(h)
+        if not np.all(np.abs(host.q * SIZES) < 1e-3):
+            raise RuntimeError(f"unstable at {count * h:.4g} s")
+        if count % every == 0:
+            found.append(host.q)
+    host.close()
+    return np.array(found)
+
+
+def variables():
+    """Of the shaft's FMU, in the order of examples/system/shaft.c: name, causality, start."""
+    found = []
+    for name in PLACES:
+        found += [(f"{name}.force.{axis}", "input", 0.0) for axis in "xyz"]
+        found += [(f"{name}.moment.{axis}", "input", 0.0) for axis in "xy"]
+    found += [(f"{name}.{motion[6:]}", "output", None) for name in PLACES for motion in MOTION]
+    found += [(axis, "output", None) for axis in AXES]
+    found += [(axis[:-1] + "v" + axis[-1], "output", None) for axis in AXES]
+    parameters = {"mass": MASS, "transverse_inertia": TRANSVERSE, "polar_inertia": POLAR, "speed": SPEED}
+    parameters.update({f"load.{axis}": 0.0 for axis in AXES})
+    parameters.update({f"{name}.place": place for name, place in PLACES.items()})
+    parameters.update({f"{name}.offset": 0.0 for name in PLACES})
+    parameters.update({f"start.{axis}": 0.0 for axis in AXES})
+    return found + [(name, "parameter", value) for name, value in parameters.items()]
+
+
+def shaft_description():
+    lines, outputs = [], []
+    for index, (name, causality, value) in enumerate(variables()):
+        exact = {"input": "", "output": ' initial="calculated"', "parameter": ' initial="exact"'}[causality]
+        kind = "fixed" if causality == "parameter" else "continuous"
+        real = "<Real/>" if value is None else f'<Real start="{value!r}"/>'
+        lines.append(
+            f'<ScalarVariable name="{name}" valueReference="{index}" causality="{causality}" variability="{kind}"'
+            f"{exact}>{real}</ScalarVariable>"
+        )
+        if causality == "output":
+            outputs.append(f'<Unknown index="{index + 1}"/>')
+    listed = "".join(outputs)
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="shaft" guid="{{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}}"
+    description="A rigid shaft in two bearings" variableNamingConvention="structured">
+<CoSimulation modelIdentifier="shaft" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="true"
+    canGetAndSetFMUstate="true"/>
+<ModelVariables>{"".join(lines)}</ModelVariables>
+<ModelStructure><Outputs>{listed}</Outputs><InitialUnknowns>{listed}</InitialUnknowns></ModelStructure>
+</fmiModelDescription>
+""".encode()
+
+
+def bindings(values):
+    listed = "".join(
+        f'<ssv:Parameter name="{name}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
+        for name, value in values.items()
+    )
+    return (
+        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+        f'<ssv:ParameterSet version="1.0" name="values"><ssv:Parameters>{listed}</ssv:Parameters></ssv:ParameterSet>'
+        "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"
+    )
+
+
+def structure(bearing, mounted, kind, start):
+    """SystemStructure.ssd: bearings first, which is the order in which a sequential algorithm steps."""
+    elements, wires = [], []
+    shaft_connectors = []
+    for name in PLACES:
+        gives = [force.replace("shaft.", "").replace("mean_", "") for force in FORCES[kind]]
+        connectors = [connector(motion, "input") for motion in MOTION]
+        connectors += [connector(force, "output") for force in FORCES[kind]]
+        values = {"bearing.contact_angle": angles(mounted)[name], "shaft.speed": SPEED}
+        elements.append(component(name, f"resources/{bearing}", connectors, values))
+        shaft_connectors += [connector(f"{name}.{force}", "input") for force in gives]
+        shaft_connectors += [connector(f"{name}.{motion[6:]}", "output") for motion in MOTION]
+        wires += [(name, a, "shaft", f"{name}.{b}") for a, b in zip(FORCES[kind], gives)]
+        wires += [("shaft", f"{name}.{motion[6:]}", name, motion) for motion in MOTION]
+    shaft_connectors += [connector(axis, "output") for axis in AXES]
+    values = {"mass": MASS, "transverse_inertia": TRANSVERSE, "polar_inertia": POLAR, "speed": SPEED}
+    values.update({f"load.{axis}": load for axis, load in zip(AXES, standing_load(mounted) + ADDED)})
+    values.update({f"{name}.place": place for name, place in PLACES.items()})
+    values.update({f"{name}.offset": offset for name, offset in offsets(mounted).items()})
+    values.update({f"start.{axis}": place for axis, place in zip(AXES, start)})
+    elements.append(component("shaft", "resources/shaft.fmu", shaft_connectors, values))
+    connections = "".join(
+        f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'
+        for a, b, c, d in wires
+    )
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<ssd:SystemStructureDescription name="pair_of_bearings" version="1.0"
+    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
+    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
+<ssd:System name="system">
+<ssd:Elements>
+{"".join(elements)}</ssd:Elements>
+<ssd:Connections>
+{connections}</ssd:Connections>
+</ssd:System>
+<ssd:DefaultExperiment startTime="0" stopTime="0.01"/>
+</ssd:SystemStructureDescription>
+"""
+
+
+def component(name, source, connectors, values):
+    return (
+        f'<ssd:Component name="{name}" type="application/x-fmu-sharedlibrary" source="{source}">\n'
+        f"<ssd:Connectors>{''.join(connectors)}</ssd:Connectors>\n{bindings(values)}\n</ssd:Component>\n"
+    )
+
+
+def write_system(path, bearing, shaft, mounted, kind, start):
+    with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
+        system.writestr("SystemStructure.ssd", structure(bearing.name, mounted, kind, start))
+        system.write(bearing, f"resources/{bearing.name}")
+        system.write(shaft, "resources/shaft.fmu")
+    return path
+
+
+def ours(kind, handover):
+    """An algorithm of system_of_fmus.py, parallel or sequential; inputs held, with derivative, or interpolated."""
+
+    def run(ssp, h, stop):
+        system = read_ssd(str(ssp)).system
+        units = {component.name: Unit(component, unzipped(str(ssp))) for component in system.elements}
+        ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+        wires = {}
+        for one in system.elements:
+            sources = [ends[one.name, c.name] for c in one.connectors if c.kind == "input"]
+            wires[one.name] = [(name, units[name].names.index(output)) for name, output in sources]
+        shaft = units["shaft"]
+        try:
+            for name in (*PLACES, "shaft"):
+                given = {other: unit.give() for other, unit in units.items()}
+                units[name].tell([given[other][i] for other, i in wires[name]])
+            for unit in units.values():
+                unit.run()
+            found, every = [shaft.give()[-5:]], round(GRID / h)
+            for count in range(1, round(stop / h) + 1):
+                step(units, wires, h, kind, handover)
+                if not np.all(np.abs(shaft.give()[-5:] * SIZES) < 1e-3):
+                    raise RuntimeError(f"unstable at {count * h:.4g} s")
+                if count % every == 0:
+                    found.append(shaft.give()[-5:])
+        finally:
+            for unit in units.values():
+                unit.close()
+        return np.array(found)
+
+    return run
+
+
+def by_fmpy(ssp, h, stop):
+    parameters, start = ParameterSet(name="all"), None
+    for one in read_ssd(str(ssp)).system.elements:
+        own = parameters_of(one)
+        if one.name == "shaft":
+            start = [float(parameter.value) for parameter in own if parameter.name.startswith("start.")]
+        for parameter in own:
+            parameter.name = f"{one.name}.{parameter.name}"
+            parameters.parameters.append(parameter)
+    found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
+    positions = np.column_stack([found[f"shaft.{axis}"] for axis in AXES])
+    return np.vstack([start, positions[round(GRID / h) - 1 :: round(GRID / h)]])
+
+
+ALGORITHMS = [
+    ("ours", "parallel", "`force`, held", "", ours("parallel", "held")),
+    ("ours", "parallel", "`force` and its derivative", "", ours("parallel", "derivative")),
+    ("ours", "sequential", "`force`, interpolated", "", ours("sequential", "interpolated")),
+    ("ours", "sequential", "`mean_force`, held", "mean_", ours("sequential", "held")),
+    ("fmpy", "parallel, begins with 0", "`force`, held", "", by_fmpy),
+]
+
+
+def error(run, exact):
+    """As a cell of the table."""
+    try:
+        found = run()
+    except (RuntimeError, FMICallException, np.linalg.LinAlgError):
+        return "unstable"
+    apart = np.sqrt(np.mean(np.sum(((found - exact) * SIZES) ** 2, axis=1)))
+    way = np.sqrt(np.mean(np.sum(((exact - exact[0]) * SIZES) ** 2, axis=1)))
+    return percent(apart / way)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", action="store_true", help="write the system, run nothing")
+    parser.add_argument("--short", action="store_true", help="two steps, 2 ms")
+    parser.add_argument("--mounted", choices=["O", "X", "T"], default="O", help="back to back, face to face, tandem")
+    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
+    options = parser.parse_args()
+    steps = (5e-6, 2e-5) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
+    stop = 2e-3 if options.short else 0.01
+    options.output.mkdir(parents=True, exist_ok=True)
+    (bearing,) = build([SCENES / "7205-pair.toml"], options.output)
+    shaft = unit_fmu(options.output, "shaft", shaft_description())
+    host = Plain(bearing, options.mounted)
+    start, stiffness = host.q, host.stiffness()
+    host.close()
+    systems = {}
+    for kind in FORCES:
+        path = options.output / f"pair-{options.mounted}{'-mean' if kind else ''}.ssp"
+        systems[kind] = write_system(path, bearing, shaft, options.mounted, kind, start)
+        print(path)
+    print(f"stiffness: {stiffness[2, 2]:.4g} N/m along the axis, {stiffness[3, 3]:.4g} N m/rad against tilt")
+    if options.build:
+        return
+    exact = by_tangent(bearing, options.mounted, 5e-7, stop)
+    print("| whose | algorithm | the shaft gets | " + " | ".join(f"{h * 1e6:g} µs" for h in steps) + " |")
+    print("|---|---|---|" + "---|" * len(steps))
+    cells = [error(lambda h=h: by_tangent(bearing, options.mounted, h, stop), exact) for h in steps]
+    print("| plain host | tangent stiffness | `mean_force` | " + " | ".join(cells) + " |", flush=True)
+    for whose, algorithm, handover, kind, run in ALGORITHMS:
+        cells = [error(lambda h=h, run=run, kind=kind: run(systems[kind], h, stop), exact) for h in steps]
+        print(f"| {whose} | {algorithm} | {handover} | " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
