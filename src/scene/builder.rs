@@ -141,19 +141,6 @@ impl Ring {
     }
 }
 
-impl AxialSupport {
-    /// Nothing but the bearing.
-    pub const NONE: Self = Self { load: 0.0, preload: 0.0, damping: 0.0, stiffness: 0.0 };
-}
-
-impl TiltSupport {
-    /// Of a ring that does not tilt under moments.
-    pub const NONE: Self =
-        Self { load_moment: [0.0; 2], transverse_inertia: 0.0, polar_inertia: 0.0, damping: 0.0, stiffness: 0.0 };
-    /// Of the default shaft, assumed: the transverse radius of inertia is 39 mm, as of a thin shaft of 136 mm.
-    pub const ASSUMED: Self = Self { transverse_inertia: 5e-3, polar_inertia: 3e-3, damping: 0.5, ..Self::NONE };
-}
-
 impl Default for Sensor {
     /// A resonator of 15 kHz with 5 % of critical damping that measures along y, from the same models as the rings'
     /// supports.

@@ -100,6 +100,19 @@ pub struct TiltSupport {
     pub stiffness: f64,
 }
 
+impl AxialSupport {
+    /// Nothing but the bearing.
+    pub const NONE: Self = Self { load: 0.0, preload: 0.0, damping: 0.0, stiffness: 0.0 };
+}
+
+impl TiltSupport {
+    /// Of a ring that does not tilt under moments.
+    pub const NONE: Self =
+        Self { load_moment: [0.0; 2], transverse_inertia: 0.0, polar_inertia: 0.0, damping: 0.0, stiffness: 0.0 };
+    /// Of the default shaft, assumed: the transverse radius of inertia is 39 mm, as of a thin shaft of 136 mm.
+    pub const ASSUMED: Self = Self { transverse_inertia: 5e-3, polar_inertia: 3e-3, damping: 0.5, ..Self::NONE };
+}
+
 impl fmt::Display for Motion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -291,8 +291,8 @@ mod tests {
     #[test]
     fn a_7206b_has_the_balls_that_its_published_static_rating_takes() {
         let inside = catalogued("7206B").unwrap().inside;
-        // ISO 76: C0 = f0 Z D² cos α, with f0 of 14.9 at D cos α/D_pw = 0.16. The rating is 1.4 % below 14.5 kN, which 14
-        // balls have, and 13 are 5 % above what they have.
+        // ISO 76: C0 = f0 Z D² cos α, with f0 of 14.9 at D cos α/D_pw = 0.16. The rating is 1.4 % below 14.5 kN, which
+        // 14 balls have, and 13 are 5 % above what they have.
         let rating = 14.9 * inside.element_diameter * inside.element_diameter * 40f64.to_radians().cos();
         assert_eq!((inside.element_count, (14.3e3 / rating).round()), (14, 14.0));
     }

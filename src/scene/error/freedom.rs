@@ -25,7 +25,8 @@ pub enum FreedomError {
     /// An outer raceway that yields, along contacts of any angle.
     #[error(
         "outer compliance (bearing.outer_compliance_m_n) is {}: it must be 0 with \
-         bearing.degrees_of_freedom = {given}; which way a ring yields to a contact at an angle is not modelled, so far",
+         bearing.degrees_of_freedom = {given}; which way a ring yields to a contact at an angle is not modelled, so \
+         far",
         Plain(*compliance_m_n)
     )]
     WithCompliance { compliance_m_n: f64, given: usize },
@@ -72,7 +73,8 @@ pub enum FreedomError {
     /// A ring that nothing holds along the axis.
     #[error(
         "the {ring} is free along z and nothing presses it: it needs an axial load (the third number of \
-         {ring}.load_n), {ring}.preload_n or {ring}.axial_stiffness_n_m above 0, or {ring}.motion other than \"internal\""
+         {ring}.load_n), {ring}.preload_n or {ring}.axial_stiffness_n_m above 0, or {ring}.motion other than \
+         \"internal\""
     )]
     FreeAlongTheAxis { ring: &'static str },
     /// Two rings that both slide.

@@ -260,8 +260,8 @@ impl Level {
         Err(ContactError::NotConverged { iterations, residual, limit })
     }
 
-    /// Goes a step along the direction; largest |g − u| on the set, largest g − u outside it or u − g where the pressure
-    /// is at its limit, and by how much one pulls or is above that.
+    /// Goes a step along the direction; largest |g − u| on the set, largest g − u outside it or u − g where the
+    /// pressure is at its limit, and by how much one pulls or is above that.
     fn advance(&mut self, step: f64) -> [f64; 3] {
         let [mut open, mut penetration, mut pull] = [0.0_f64; 3];
         for c in 0..self.pressure.len() {

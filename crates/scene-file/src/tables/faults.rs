@@ -35,8 +35,8 @@ pub(crate) enum TableFault {
     #[error("bearing.catalogue = \"{name}\" has {elements}: bearing.element says otherwise")]
     OtherElements { name: &'static str, elements: &'static str },
     #[error(
-        "bearing.catalogue = \"{name}\" has a contact angle of {angle} degrees: it needs bearing.degrees_of_freedom = 3 \
-         or 5"
+        "bearing.catalogue = \"{name}\" has a contact angle of {angle} degrees: it needs \
+         bearing.degrees_of_freedom = 3 or 5"
     )]
     AngularInPlane { name: &'static str, angle: f64 },
     #[error("{key} is given: only rollers have it, and bearing.element is \"ball\"; it may be \"cylindrical-roller\"")]

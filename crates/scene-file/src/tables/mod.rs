@@ -14,7 +14,7 @@
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
 //! | `bearing.degrees_of_freedom` | 2; or 3, rings move along z as well; or 5, and they tilt. Balls only |
-//! | `bearing.contact_angle_deg`, `.axial_clearance_um` | instead of a radial clearance: free contact angle; axial play |
+//! | `bearing.contact_angle_deg`, `.axial_clearance_um` | instead of a clearance: free contact angle; axial play |
 //! | `bearing.operating_angle_deg` | the free contact angle where given, else that of the start's equilibrium |
 //! | `bearing.shoulder_inner_mm`, `.shoulder_outer_mm` | none: nothing is said of shoulders |
 //! | `bearing.gyroscopic` | `"none"`; or `"outer"`, `"shared"`, of balls without inertia |

@@ -101,6 +101,7 @@ pub(crate) fn lively_with(
         housing: motion(12e-6),
         shaft_load: load(100.0),
         housing_load: load(-30.0),
+        beyond: Default::default(),
         relative_speed: Quadratic([700.0, 8e6, 0.0]),
         ..Excitation::default()
     };

@@ -83,14 +83,7 @@ impl SpatialBearing {
         };
         let (r_o, r_i) = ((pitch + d + clearance) / 2.0, (pitch - d - clearance) / 2.0);
         let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
-        // Curvature of the raceways along rolling.
-        let along = match lean {
-            None => [1.0 / r_i, -1.0 / r_o],
-            Some(angle) => {
-                let cos = angle.cos();
-                [cos / (pitch / 2.0 - r * cos), -cos / (pitch / 2.0 + r * cos)]
-            }
-        };
+        let along = along_rolling(lean, [r_i, r_o], pitch, r);
         let constant = |side: usize| {
             let curvatures = [1.0 / r + along[side], 1.0 / r - 1.0 / (case.conformities[side] * d)];
             case.hertz[side].unwrap_or_else(|| hertz::stiffness(curvatures, modulus))
@@ -293,6 +286,12 @@ impl SpatialBearing {
             acting.accelerations[which] = outside.rings[which].map(|c| c[2]);
         }
     }
+}
+
+/// Curvatures of both raceways along rolling (1/m): at a free contact angle, or at the grooves' bottoms.
+fn along_rolling(lean: Option<f64>, [r_i, r_o]: [f64; 2], pitch: f64, r: f64) -> [f64; 2] {
+    let Some(cos) = lean.map(f64::cos) else { return [1.0 / r_i, -1.0 / r_o] };
+    [cos / (pitch / 2.0 - r * cos), -cos / (pitch / 2.0 + r * cos)]
 }
 
 /// Times up to `length` at which an angle that changes by a quadratic is a whole number of turns.

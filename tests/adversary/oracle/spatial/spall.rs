@@ -23,8 +23,8 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// With the circle of the track (m), the cosine of its angle, and the spall's middle and half of its length (rad) and
-    /// its depth (m).
+    /// With the circle of the track (m), the cosine of its angle, and the spall's middle and half of its length (rad)
+    /// and its depth (m).
     pub(super) fn new(track: f64, cosine: f64, ball: f64, hollow: bool, [centre, half, depth]: [f64; 3]) -> Self {
         Self { centre, half, depth, cosine, radius: track / cosine, ball, hollow }
     }
