@@ -1,8 +1,8 @@
 //! `brinell paper`: which claims hold, from an empty folder, each part within a minute.
+#![cfg(unix)]
 #![allow(clippy::unwrap_used)]
 
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -11,8 +11,9 @@ use crate::common;
 /// What the program prints of a part, and its claims that do not hold.
 fn refuted(part: &str) -> Vec<String> {
     let folder = common::folder(&format!("paper-{part}"));
-    let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    let output = program.args(["paper", part, "--json", "--no-figure", "-o"]).arg(&folder).output().unwrap();
+    // A minute of a core: who waits for more on a busy machine waits for others.
+    let whole = format!("ulimit -t 60; exec {} paper {part} --json --no-figure -o .", env!("CARGO_BIN_EXE_brinell"));
+    let output = Command::new("sh").current_dir(&folder).args(["-c", &whole]).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();
     // Where there is data, its file's name follows.
@@ -35,8 +36,7 @@ fn tables_and_profile_hold_but_for_the_load_at_the_nominal_depth() {
 #[ignore = "computes half a minute of a core"]
 fn figures_hold_but_for_the_rise_at_the_nominal_depth_each_within_a_minute() {
     for (part, expected) in [("fig1", 0), ("fig5", 0), ("fig6", 1)] {
-        let begin = Instant::now();
         let refuted = refuted(part);
-        assert!(refuted.len() == expected && begin.elapsed() < Duration::from_secs(60), "{part}: {refuted:?}");
+        assert!(refuted.len() == expected, "{part}: {refuted:?}");
     }
 }
