@@ -4,12 +4,12 @@ mod options;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::{Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
-use crate::shared::Project;
+use crate::shared::{Interface, Project, Version};
 use crate::{run, sweep};
 use options::{Build, Catalogue, Check, Contact, Demo, New, OverCageAngle, Run, Scenes, Size, Sweep};
 
@@ -119,7 +119,9 @@ impl Command {
 }
 
 fn build(project: &Project, options: Build) -> Result<()> {
-    let interface = options.interface()?;
+    let (version, scalars) = (options.fmi, options.scalars);
+    ensure!(!scalars || version == Version::Fmi3, "--scalars is for --fmi 3: FMI 2.0 has no arrays");
+    let interface = Interface { version, kind: options.kind, names: options.names, scalars };
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
         if options.reference {
