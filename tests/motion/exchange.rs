@@ -206,10 +206,17 @@ fn worst_of_jacobian(scene: Scene, before: f64, skip: impl Fn(&str) -> bool) -> 
         let differences: Vec<f64> = high.iter().zip(&low).map(|(high, low)| (high - low) / (2.0 * by)).collect();
         columns.push((nominal, exact, differences));
     }
+    let names: Vec<&str> = unknowns.iter().map(|unknown| unknown.1.as_str()).collect();
+    let knowns: Vec<u32> = knowns.iter().map(|known| known.0).collect();
+    largest_error(&names, &knowns, &columns)
+}
+
+/// Of columns, each with the nominal change of its known, exact and by differences.
+fn largest_error(names: &[&str], knowns: &[u32], columns: &[(f64, Vec<f64>, Vec<f64>)]) -> f64 {
     let mut worst = 0.0;
-    for (row, (_, name)) in unknowns.iter().enumerate() {
+    for (row, name) in names.iter().enumerate() {
         let largest = columns.iter().map(|(nominal, exact, _)| (nominal * exact[row]).abs()).fold(0.0, f64::max);
-        for ((nominal, exact, differences), (known, _)) in columns.iter().zip(&knowns) {
+        for ((nominal, exact, differences), known) in columns.iter().zip(knowns) {
             let error = (nominal * (exact[row] - differences[row])).abs() / largest.max(1e-300);
             if largest > 0.0 && error > 1e-5 {
                 println!("{name} by {known}: {:e} and {:e}, largest {largest:e}", exact[row], differences[row]);

@@ -5,12 +5,12 @@ mod shipped_options;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
-use crate::shared::{Project, talk};
+use crate::shared::{Interface, Project, Version, talk};
 use crate::{paper, run, sweep};
 use options::{Build, Check, Contact, Demo, OverCageAngle, Run, Size, Sweep};
 use shipped_options::{Catalogue, New, Paper, Scenes};
@@ -161,7 +161,9 @@ impl Command {
 }
 
 fn build(project: &Project, options: Build) -> Result<()> {
-    let interface = options.interface()?;
+    let (version, scalars) = (options.fmi, options.scalars);
+    ensure!(!scalars || version == Version::Fmi3, "--scalars is for --fmi 3: FMI 2.0 has no arrays");
+    let interface = Interface { version, kind: options.kind, names: options.names, scalars };
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
         if options.reference {

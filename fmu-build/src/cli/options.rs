@@ -3,7 +3,7 @@
 use std::env;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use brinell::scene::Experiment;
 use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
@@ -14,7 +14,7 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Interface, Kind, Names, Project, Version, delimiter, gigapascals, number, seed, speed, whole};
+use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, number, seed, speed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -32,7 +32,7 @@ pub struct Build {
     /// How it is simulated: the FMU integrates, the host does, or either
     #[arg(long, value_enum, default_value_t, value_name = "KIND")]
     pub(super) kind: Kind,
-    /// How variables are named: element[3].path or, for hosts that want identifiers, element_3_path
+    /// How variables are named: element[3].path or element_3_path
     #[arg(long, value_enum, default_value_t, value_name = "NAMES")]
     pub(super) names: Names,
     /// FMI 3.0 for hosts without arrays: a variable for each element, counters as Int64
@@ -44,13 +44,6 @@ pub struct Build {
     pub(super) reference: bool,
     #[command(flatten)]
     pub(super) library: LibraryChoice,
-}
-
-impl Build {
-    pub(super) fn interface(&self) -> Result<Interface> {
-        ensure!(!self.scalars || self.fmi == Version::Fmi3, "--scalars is for --fmi 3: FMI 2.0 has no arrays");
-        Ok(Interface { version: self.fmi, kind: self.kind, names: self.names, scalars: self.scalars })
-    }
 }
 
 /// Options of `run`.

@@ -133,6 +133,14 @@ impl State {
         self.first.copy_from(&other.first);
     }
 
+    /// Whether such steps can have been taken.
+    pub(super) fn steps_are_possible(&self) -> bool {
+        let mut history = self.history.clone();
+        let finite = history.numbers().all(|number| number.is_finite());
+        let first = std::iter::once(&self.first.time).chain(&self.first.values).all(|number| number.is_finite());
+        finite && first && self.history.step >= 0.0 && self.history.earlier.iter().all(|step| *step >= 0.0)
+    }
+
     /// Forgets the steps that were taken.
     pub(super) fn forget_steps(&mut self) {
         let inputs = self.input_rates.len();

@@ -85,14 +85,7 @@ impl State {
             real(&mut value, field)?;
             *rate = given.then_some(value);
         }
-        for number in self.history.numbers() {
-            real(number, field)?;
-        }
-        flag(&mut self.first.given, field)?;
-        real(&mut self.first.time, field)?;
-        for value in &mut self.first.values {
-            real(value, field)?;
-        }
+        self.visit_steps(field)?;
         for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
         }
@@ -120,6 +113,13 @@ impl State {
             *count = u64::from_le_bytes(bytes);
         }
         Some(())
+    }
+
+    /// The same of the steps that were taken.
+    fn visit_steps(&mut self, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
+        flag(&mut self.first.given, field)?;
+        let first = std::iter::once(&mut self.first.time).chain(&mut self.first.values);
+        self.history.numbers().chain(first).try_for_each(|number| real(number, field))
     }
 }
 
@@ -162,14 +162,11 @@ impl Simulation {
             &state.reals,
         ];
         let rates = state.input_rates.as_flattened().iter().flatten();
-        let finite = |number: &f64| number.is_finite();
-        let history = state.history.clone().numbers().all(|number| finite(number));
-        let first = finite(&state.first.time) && state.first.values.iter().all(finite);
-        if !numbers.into_iter().flatten().chain(rates).all(finite) || !history || !first {
+        if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) {
             return Some("a number is not finite");
         }
-        if [state.history.step].iter().chain(&state.history.earlier).any(|step| *step < 0.0) {
-            return Some("a communication step was shorter than 0");
+        if !state.steps_are_possible() {
+            return Some("the steps before are none that can have been taken");
         }
         // A step that is rejected is at least a tenth as long afterwards, one that is taken a fifth.
         if progress.next_step < 0.1 * SMALLEST_STEP {
