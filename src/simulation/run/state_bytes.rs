@@ -5,7 +5,7 @@
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
 use super::life::Simulation;
-use super::state::State;
+use super::state::{FirstInputs, History, State};
 use crate::dynamics::parameters::WholeAngle;
 use crate::numerics::bytes::Reader;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
@@ -85,7 +85,7 @@ impl State {
             real(&mut value, field)?;
             *rate = given.then_some(value);
         }
-        self.visit_steps(field)?;
+        visit_steps(&mut self.first, &mut self.history, field)?;
         for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
         }
@@ -114,13 +114,17 @@ impl State {
         }
         Some(())
     }
+}
 
-    /// The same of the steps that were taken.
-    fn visit_steps(&mut self, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
-        flag(&mut self.first.given, field)?;
-        let first = std::iter::once(&mut self.first.time).chain(&mut self.first.values);
-        self.history.numbers().chain(first).try_for_each(|number| real(number, field))
-    }
+/// As [`State::visit`], of the steps that were taken.
+fn visit_steps(
+    first: &mut FirstInputs,
+    history: &mut History,
+    field: &mut impl FnMut(&mut [u8]) -> Option<()>,
+) -> Option<()> {
+    flag(&mut first.given, field)?;
+    let first = std::iter::once(&mut first.time).chain(&mut first.values);
+    history.numbers().chain(first).try_for_each(|number| real(number, field))
 }
 
 impl Simulation {
