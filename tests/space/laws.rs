@@ -326,6 +326,6 @@ fn under_every_law_a_ball_over_a_line_spall_carries_about_the_same() {
     for (rigid, love) in hertz.into_iter().zip(love) {
         assert!((rigid / love - 1.0).abs() < 0.2, "{rigid} {love}");
     }
-    let smooth = love[3];
-    assert!(love[0] < 0.9 * smooth, "{love:?}");
+    // Fifteen micrometres within the edge it has lost next to nothing of its approach, and much of its ground.
+    assert!(love[0] < 0.95 * hertz[0], "{hertz:?} {love:?}");
 }
