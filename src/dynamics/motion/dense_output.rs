@@ -20,22 +20,30 @@ pub(crate) struct Known<'a> {
     pub(crate) derivative: &'a [f64],
 }
 
+/// A moment between two instants.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Between<'a> {
+    /// Time from the one to the other (s), and share of it that has gone by.
+    pub(crate) length: f64,
+    pub(crate) share: f64,
+    /// The cage at that moment.
+    pub(crate) cage: &'a CageState,
+}
+
 impl Model {
-    /// State at `share` of the time `h` (s) from the first to the second instant, where the cage is as `cage` says,
-    /// into `out`; `pieces` are those of an uneven cage.
+    /// State at a moment between two instants into `out`; `pieces` are those of an uneven cage.
     #[inline(always)]
     pub(crate) fn dense_output<S: Wide>(
         &self,
         simd: S,
         excitation: &Excitation,
         ends: [Known; 2],
-        [h, share]: [f64; 2],
-        cage: &CageState,
+        Between { length, share, cage }: Between,
         pieces: &mut LeadPieces,
         out: &mut [f64],
     ) {
         let layout = &self.layout;
-        let basis = Quintic::new(h, share);
+        let basis = Quintic::new(length, share);
         let value = |i: usize| ends.map(|end| end.state[i]);
         let rate = |i: usize| ends.map(|end| end.derivative[i]);
         let rings = [layout.shaft, layout.housing].into_iter().flatten().map(|start| (start, 2));
@@ -163,7 +171,8 @@ mod tests {
                 let mut found = vec![0.0; state.len()];
                 let cage = excitation.cage_at(share * h);
                 let pieces = &mut forces.shortcuts.leads;
-                model.dense_output(Scalar256b, &excitation, ends, [h, share], &cage, pieces, &mut found);
+                let between = Between { length: h, share, cage: &cage };
+                model.dense_output(Scalar256b, &excitation, ends, between, pieces, &mut found);
                 let expected = integrated(&model, &excitation, &state, &cells, share * h);
                 for i in (0..state.len()).filter(|&i| model.layout.is_used(i)) {
                     let limit = if model.layout.is_position(i) { 1e-16 } else { 2e-9 };

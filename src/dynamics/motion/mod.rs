@@ -5,4 +5,4 @@ mod body_rates;
 mod dense_output;
 mod right_hand_side;
 
-pub(crate) use dense_output::Known;
+pub(crate) use dense_output::{Between, Known};

@@ -4,7 +4,7 @@ use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::contacts::{Forces, RingForces};
 use crate::dynamics::derivatives::Jacobian;
-use crate::dynamics::motion::Known;
+use crate::dynamics::motion::{Between, Known};
 use crate::dynamics::parameters::{CageState, Excitation, Model, Stage};
 use crate::numerics::lanes::{Kernel, Wide, dispatch};
 use crate::simulation::integration::methods::{
@@ -123,7 +123,8 @@ impl Kernel for Probe<'_> {
                     Known { cage: excitation.cage_at(from), state: &progress.state, derivative: &buffers.first };
                 let end = Known { cage: excitation.cage_at(from + h), state: &buffers.end, derivative: &buffers.last };
                 let pieces = &mut forces.shortcuts.leads;
-                model.dense_output(simd, excitation, [start, end], [h, share], &cage, pieces, dense);
+                let between = Between { length: h, share, cage: &cage };
+                model.dense_output(simd, excitation, [start, end], between, pieces, dense);
             }
         }
         let stage = Stage { excitation, cage: &cage, state: dense, ahead: None };
