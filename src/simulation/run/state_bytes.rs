@@ -5,7 +5,7 @@
 //! process. The bytes carry no version and no checksum: whoever stores them adds both.
 
 use super::life::Simulation;
-use super::state::State;
+use super::state::{FirstInputs, History, State};
 use crate::dynamics::parameters::WholeAngle;
 use crate::numerics::bytes::Reader;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
@@ -85,7 +85,7 @@ impl State {
             real(&mut value, field)?;
             *rate = given.then_some(value);
         }
-        self.visit_steps(field)?;
+        visit_steps(&mut self.history, &mut self.first, field)?;
         for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
         }
@@ -113,13 +113,17 @@ impl State {
         }
         Some(())
     }
+}
 
-    /// The same of the steps that were taken.
-    fn visit_steps(&mut self, field: &mut impl FnMut(&mut [u8]) -> Option<()>) -> Option<()> {
-        flag(&mut self.first.given, field)?;
-        let first = std::iter::once(&mut self.first.time).chain(&mut self.first.values);
-        self.history.numbers().chain(first).try_for_each(|number| real(number, field))
-    }
+/// Shows the steps that were taken, as [`State::visit`] shows all of it.
+fn visit_steps(
+    history: &mut History,
+    first: &mut FirstInputs,
+    field: &mut impl FnMut(&mut [u8]) -> Option<()>,
+) -> Option<()> {
+    flag(&mut first.given, field)?;
+    let first = std::iter::once(&mut first.time).chain(&mut first.values);
+    history.numbers().chain(first).try_for_each(|number| real(number, field))
 }
 
 impl Simulation {
@@ -161,11 +165,8 @@ impl Simulation {
             &state.reals,
         ];
         let rates = state.input_rates.as_flattened().iter().flatten();
-        if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) {
-            return Some("a number is not finite");
-        }
-        if !state.steps_are_possible() {
-            return Some("the steps before are none that can have been taken");
+        if !numbers.into_iter().flatten().chain(rates).all(|number| number.is_finite()) || !state.steps_are_possible() {
+            return Some("a number is not finite, or a step was shorter than 0");
         }
         // A step that is rejected is at least a tenth as long afterwards, one that is taken a fifth.
         if progress.next_step < 0.1 * SMALLEST_STEP {
