@@ -88,7 +88,8 @@ fn an_fmu_for_model_exchange_goes_from_event_mode_to_continuous_time_and_back() 
 #[test]
 fn functions_of_the_other_kind_and_out_of_their_mode_are_errors() {
     // SAFETY: any handle may be passed; pointers are to what they say, or not read.
-    let wrong: [(&str, fn(&Host) -> Status); 4] = [
+    type Wrong = fn(&Host) -> Status;
+    let wrong: [(&str, Wrong); 4] = [
         ("fmi2DoStep", |h| h.step(0.0, 1e-5)),
         ("fmi2SetContinuousStates", |h| unsafe { fmi2SetContinuousStates(h.c, [0.0; STATES].as_ptr(), STATES) }),
         ("fmi2CompletedIntegratorStep", |h| unsafe {

@@ -216,7 +216,7 @@ fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
 
     let rows = table(&run(PAIRS, &folder), 3);
     assert_eq!(rows.len(), 6);
-    let here = page("how-to/systems.md");
+    let here = page("how-to/axial.md");
     // Steps of 5 µs over the first 2 ms. Limits: twice what was found.
     for (told, limit) in [
         ("plain host tangent stiffness `mean_force`", 0.04),
