@@ -31,6 +31,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("run_motion.py", include_str!("../../python/run_motion.py")),
     ("run_page.js", include_str!("../../python/run_page.js")),
     ("run_page.py", include_str!("../../python/run_page.py")),
+    ("run_player.js", include_str!("../../python/run_player.js")),
     ("run_spectra.py", include_str!("../../python/run_spectra.py")),
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),
