@@ -307,7 +307,8 @@ const BAND: &str = r#"<pre id="lines"></pre><script>
 Promise.all(drawn).then(() => {
   const spectrum = DATA.spectra.find((one) => one.band), mine = envelope(DATA.motion.signal, ...spectrum.band);
   const there = { step: spectrum.step, y: numbers(spectrum.y) };
-  const highest = ({ step, y }, f) => Math.max(...y.subarray(Math.floor((f - 5) / step), Math.ceil((f + 5) / step)));
+  const around = ({ step }, f) => [Math.floor((f - 5) / step), Math.ceil((f + 5) / step)];
+  const highest = (of, f) => Math.max(...of.y.subarray(...around(of, f)));
   const at = spectrum.marks.find((mark) => mark.name === "BPFO").at.slice(0, 5);
   document.getElementById("lines").textContent = at.map((f) => highest(mine, f) / highest(there, f)).join(" ");
 });
@@ -317,7 +318,8 @@ Promise.all(drawn).then(() => {
 /// Milliseconds of a picture: the mean of five over the run, the least of 60 such, which a busy machine lets through.
 const COST: &str = r#"<pre id="cost"></pre><script>
 Promise.all(drawn).then(() => {
-  document.getElementById("cost").textContent = Math.min(...Array.from({ length: 60 }, () => costOfPicture(5))).toFixed(2);
+  const costs = Array.from({ length: 60 }, () => costOfPicture(5));
+  document.getElementById("cost").textContent = Math.min(...costs).toFixed(2);
 });
 </script>
 "#;

@@ -220,6 +220,8 @@ def path(run, about, defect, number):
     }
 
 
+# In the order in which one needs the other.
+SCRIPTS = ("run_motion.js", "run_player.js", "run_page.js")
 HEAD = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -301,7 +303,7 @@ def main():
         text += '<h2>Spectrogram of the acceleration</h2><div id="spectrogram"></div>\n'
     library = (Path(plotly.__file__).parent / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
     here = Path(__file__).parent
-    program = "".join((here / name).read_text(encoding="utf-8") for name in ("run_motion.js", "run_page.js"))
+    program = "".join((here / name).read_text(encoding="utf-8") for name in SCRIPTS)
     # No "</" inside a script ends it.
     told = json.dumps(data).replace("</", "<\\/")
     text += f"<script>{library}</script>\n<script>const DATA = {told};\n{program}</script>\n"
