@@ -8,13 +8,14 @@ use brinell::scene::Experiment;
 use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
 
+use crate::commands::size::ShaftSpeed;
 use crate::commands::{Spall, contact, new_scene, size, stiffness};
 use crate::package::{Model, library};
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, number, seed, speed, whole};
+use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, number, seed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -282,16 +283,17 @@ pub struct Size {
     /// Sampling rate in hertz [default: the file's own]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub(super) rate: Option<f64>,
-    /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas
+    /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas;
+    /// LOW..HIGH seeks it by the shaft's own lines, and auto from 5 to 60 Hz
     #[arg(
         long,
-        value_name = "HZ",
+        value_name = "HZ|LOW..HIGH|auto",
         value_delimiter = ',',
         group = "shaft",
         allow_negative_numbers = true,
-        value_parser = speed,
+        value_parser = size::shaft_speed,
     )]
-    pub(super) speed: Vec<f64>,
+    pub(super) speed: Vec<ShaftSpeed>,
     /// Column of a tachometer, by name or by number from 1
     #[arg(long, value_name = "COLUMN", group = "shaft")]
     pub(super) tacho: Option<String>,
@@ -336,13 +338,13 @@ impl Size {
         TextFormat { delimiter: self.delimiter, decimal: self.decimal }
     }
 
-    pub(super) fn speeds(&self) -> Vec<Speed> {
+    pub(super) fn speeds(&self) -> Vec<ShaftSpeed> {
         if let Some(column) = &self.tacho {
-            vec![Speed::Tachometer(column.clone(), self.pulses)]
+            vec![ShaftSpeed::Stated(Speed::Tachometer(column.clone(), self.pulses))]
         } else if let Some(column) = &self.speed_column {
-            vec![Speed::Column(column.clone())]
+            vec![ShaftSpeed::Stated(Speed::Column(column.clone()))]
         } else {
-            self.speed.iter().map(|&speed| Speed::Constant(speed)).collect()
+            self.speed.clone()
         }
     }
 }

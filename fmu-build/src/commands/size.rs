@@ -7,14 +7,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use brinell::scene::Scene;
+use brinell::scene::{self, Scene};
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
-use brinell_analysis::spectra::Fault;
+use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
 
 use super::{new_scene, size_report};
 use crate::package::read_scene;
-use crate::shared::{Project, Python, contact_map, csv, digits, note, talk, whole_file};
+use crate::shared::{Project, Python, contact_map, csv, digits, note, speed, talk, whole_file};
 
 /// Where the bearing and its load come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,13 +34,34 @@ impl Bearing {
     }
 }
 
+/// Where the shaft's speed comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShaftSpeed {
+    /// The user, or a column of the file.
+    Stated(Speed),
+    /// The signal itself, between two limits (Hz).
+    Sought([f64; 2]),
+}
+
+/// A speed as it is typed: `25`, `1500rpm`, `20..30`, `auto`.
+pub(crate) fn shaft_speed(text: &str) -> Result<ShaftSpeed, String> {
+    if text == "auto" {
+        return Ok(ShaftSpeed::Sought(PLAUSIBLE));
+    }
+    let Some((low, high)) = text.split_once("..") else {
+        let wanted = |why| format!("{why}, limits as in 20..30, or auto");
+        return speed(text).map(|hertz| ShaftSpeed::Stated(Speed::Constant(hertz))).map_err(wanted);
+    };
+    Ok(ShaftSpeed::Sought([speed(low)?, speed(high)?]))
+}
+
 /// What the user says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Sampling rate (Hz); `None` where the files state it.
     pub rate: Option<f64>,
     /// Shaft speed of all recordings, or of each.
-    pub speeds: Vec<Speed>,
+    pub speeds: Vec<ShaftSpeed>,
     /// Column of the signal, by name or number.
     pub channel: Option<String>,
     /// How texts are written.
@@ -60,11 +81,12 @@ pub fn command(
     folder: &Path,
 ) -> Result<()> {
     let scene = bearing.scene()?;
-    let recordings = read(recordings, options)?;
-    for r in &recordings {
+    let recordings = read(recordings, options, &scene.bearing)?;
+    for (r, speed) in recordings.iter().zip(options.speeds.iter().cycle()) {
         // Times that are read as numbers leave some 1e-13 of the rate over.
         let rate = digits(1e-3 * r.rate());
-        note!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz", r.name(), r.duration(), r.speed());
+        let by = if matches!(speed, ShaftSpeed::Sought(_)) { ", by its own lines" } else { "" };
+        note!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz{by}", r.name(), r.duration(), r.speed());
     }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let bar = talk::bar(recordings.len() as u64, "sizing [{bar:30}] {pos}/{len} recordings, {elapsed}");
@@ -83,7 +105,7 @@ pub fn command(
     std::io::stdout().flush()?;
     let stems = write(&report, folder)?;
     if let Some(path) = &options.report {
-        whole_file::write(path, size_report::page(&report, &recordings, &scene, &answer(&report))?)?;
+        whole_file::write(path, size_report::page(&report, &recordings, &scene, &found(&report))?)?;
         eprintln!("{}", path.display());
     }
     if options.figure {
@@ -92,32 +114,44 @@ pub fn command(
     Ok(())
 }
 
-fn read(paths: &[PathBuf], options: &Options) -> Result<Vec<Recording>> {
+fn read(paths: &[PathBuf], options: &Options, bearing: &scene::Bearing) -> Result<Vec<Recording>> {
     let count = options.speeds.len();
     if count != 1 && count != paths.len() {
         bail!("{count} speeds for {} recordings: give one for all, or one for each", paths.len());
     }
     let speeds = options.speeds.iter().cycle();
     let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
-        let source =
-            Source { rate: options.rate, speed: speed.clone(), signal: options.channel.clone(), text: options.text };
-        Ok(Recording::read(path, &source)?)
+        // Until it is found it stands at the slowest that is considered.
+        let stated = match speed {
+            ShaftSpeed::Stated(speed) => speed.clone(),
+            ShaftSpeed::Sought([low, _]) => Speed::Constant(*low),
+        };
+        let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text: options.text };
+        let recording = Recording::read(path, &source)?;
+        let ShaftSpeed::Sought(limits) = speed else { return Ok(recording) };
+        let found = find_speed(recording.name(), recording.samples(), recording.rate(), bearing, *limits)?;
+        Ok(recording.at_speed(found)?)
     });
     recordings.collect()
 }
 
 /// The answer in a line: which part, how long, how far to rely on it, why.
 fn answer(report: &Report) -> String {
-    let (part, why) = (part(report.fault), &report.reason);
+    format!("{}: {}", found(report), report.reason)
+}
+
+/// Which part, how long, how far to rely on it.
+fn found(report: &Report) -> String {
+    let part = part(report.fault);
     match (report.length_mm, report.uncertainty_mm, report.length_deg, report.standing) {
         (Some(length), Some(uncertainty), Some(degrees), Some(standing)) => {
             let standing = if standing == Standing::Firm { "firm" } else { "provisional" };
-            format!("{part}: {length:.2} ± {uncertainty:.2} mm ({degrees:.2} degrees), {standing}: {why}")
+            format!("{part}: {length:.2} ± {uncertainty:.2} mm ({degrees:.2} degrees), {standing}")
         }
         _ => {
             let least =
                 report.at_least_deg.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
-            format!("{part}, {least}: {why}")
+            format!("{part}, {least}")
         }
     }
 }

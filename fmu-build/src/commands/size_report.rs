@@ -12,15 +12,21 @@ use minijinja::context;
 use serde_json::{Value, json};
 
 use crate::package::render;
+use crate::shared::digits;
 
 const PAGE: &str = include_str!("../../assets/size.html");
-/// Size of a chart (px).
+/// Size of a chart without its axes (px).
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 200.0;
+/// Numbers on an axis, about.
+const ACROSS: f64 = 10.0;
+const DOWN: f64 = 4.0;
 /// Columns in which the lowest and the highest value are drawn.
 const COLUMNS: usize = 900;
 /// Harmonics of each kind of fault that are marked.
 const HARMONICS: u32 = 3;
+/// What a passage is drawn over.
+const TRAVEL: &str = "travel of the element (degrees)";
 /// Powers so far below the highest are drawn on the lower edge (dB).
 const LOWEST: f64 = -80.0;
 
@@ -28,45 +34,50 @@ const LOWEST: f64 = -80.0;
 ///
 /// # Errors
 /// Of its template.
-pub(super) fn page(report: &Report, recordings: &[Recording], scene: &Scene, answer: &str) -> Result<String> {
+pub(super) fn page(report: &Report, recordings: &[Recording], scene: &Scene, found: &str) -> Result<String> {
     let figures = report.recordings.iter().zip(&report.figures).zip(recordings);
-    let parts: Vec<Value> =
-        figures.map(|((one, figure), recording)| part(one, figure, recording, scene, &report.reason)).collect();
+    let parts: Vec<Value> = figures.map(|((one, figure), recording)| part(one, figure, recording, scene)).collect();
     let parts = minijinja::value::Serde(parts);
-    render(
-        "size.html",
-        PAGE,
-        context! { answer, parts, program => env!("CARGO_PKG_VERSION"), width => WIDTH, height => HEIGHT },
-    )
+    let (bearing, load) = (&scene.bearing, scene.shaft.load[0].hypot(scene.shaft.load[1]));
+    let machine = format!(
+        "Bearing with {} elements of {} mm on a pitch circle of {} mm, load {load:.0} N.",
+        bearing.element_count,
+        digits(2e3 * bearing.element_radius()),
+        digits(1e3 * bearing.pitch_diameter)
+    );
+    let (program, reason) = (env!("CARGO_PKG_VERSION"), &report.reason);
+    render("size.html", PAGE, context! { found, reason, machine, parts, program, width => WIDTH, height => HEIGHT })
 }
 
-fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &Scene, reason: &str) -> Value {
-    let comb = |kind: &str, comb: &CombReport| {
+fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &Scene) -> Value {
+    let nominal = frequencies(&scene.bearing, 0.0, recording.speed());
+    let comb = |kind: &str, rolling: f64, comb: &CombReport| {
         json!([
             kind,
+            format!("{rolling:.2}"),
             format!("{:.2}", comb.frequency_hz),
             format!("{:.1}", 100.0 * comb.share),
             format!("{:.1}", 100.0 * comb.alone)
         ])
     };
     let combs = [
-        comb("outer raceway (BPFO)", &one.combs.outer),
-        comb("inner raceway (BPFI)", &one.combs.inner),
-        comb("rolling element (2 BSF)", &one.combs.element),
+        comb("outer raceway (BPFO)", nominal.bpfo, &one.combs.outer),
+        comb("inner raceway (BPFI)", nominal.bpfi, &one.combs.inner),
+        comb("rolling element (2 BSF)", 2.0 * nominal.bsf, &one.combs.element),
     ];
     json!({
         "name": one.name,
         "facts": format!(
             "{:.3} s at {:.0} Hz, shaft {:.3} Hz", recording.duration(), recording.rate(), recording.speed()
         ),
-        "fault": one.fault,
+        "grade": one.grade.name(),
         "speaks_for": one.speaks_for,
         "speaks_against": one.speaks_against,
         "combs": combs,
-        "reason": one.reason.as_deref().unwrap_or(reason),
+        "reason": one.reason,
         "charts": [
             signal_spectrum(recording),
-            envelope_spectrum(recording, scene),
+            envelope_spectrum(one, recording, scene),
             passage(one, figure),
             level(one, figure),
         ],
@@ -77,32 +88,40 @@ fn signal_spectrum(recording: &Recording) -> Value {
     let (power, width) = spectrum::power(recording.samples(), recording.rate(), 0);
     let highest = power.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let level: Vec<f64> = power.iter().map(|p| (10.0 * libm::log10((p / highest).max(1e-30))).max(LOWEST)).collect();
-    let frequency: Vec<f64> = (0..level.len()).map(|i| i as f64 * width).collect();
-    chart("Spectrum (dB below the highest line)", "Hz", &frequency, &level, &[])
+    let frequency: Vec<f64> = (0..level.len()).map(|i| 1e-3 * i as f64 * width).collect();
+    chart("Spectrum of the signal (dB, highest line 0)", "frequency (kHz)", &frequency, &level, &[])
 }
 
-fn envelope_spectrum(recording: &Recording, scene: &Scene) -> Value {
+fn envelope_spectrum(one: &RecordingReport, recording: &Recording, scene: &Scene) -> Value {
     let nominal = frequencies(&scene.bearing, 0.0, recording.speed());
     let title = "Spectrum of the squared envelope";
     let Some(envelope) = EnvelopeSpectrum::of(recording.samples(), recording.rate(), nominal, recording.speed()) else {
-        return chart(&format!("{title}: the recording is too short or too coarse"), "Hz", &[], &[], &[]);
+        return chart(&format!("{title}: the recording is too short or too coarse"), "frequency (Hz)", &[], &[], &[]);
     };
-    let marks: Vec<(f64, String)> = [("BPFO", nominal.bpfo), ("BPFI", nominal.bpfi), ("2 BSF", 2.0 * nominal.bsf)]
+    // Where the combs are, not where pure rolling has them.
+    let combs = [("BPFO", &one.combs.outer), ("BPFI", &one.combs.inner), ("2 BSF", &one.combs.element)];
+    let marks: Vec<(f64, String)> = combs
         .into_iter()
-        .flat_map(|(name, hertz)| (1..=HARMONICS).map(move |k| (f64::from(k) * hertz, format!("{k} × {name}"))))
+        .flat_map(|(name, comb)| (1..=HARMONICS).map(move |k| (f64::from(k) * comb.frequency_hz, times(k, name))))
         .chain([(recording.speed(), "shaft".to_owned())])
         .collect();
-    let title = format!("{title}, {:.0} to {:.0} Hz", envelope.band.low, envelope.band.high);
-    chart(&title, "Hz", &envelope.frequency, &envelope.amplitude, &marks)
+    let [low, high] = [envelope.band.low, envelope.band.high].map(|hertz| 1e-3 * hertz);
+    let title = format!("{title} of {low:.1} to {high:.1} kHz (share of its mean)");
+    chart(&title, "frequency (Hz)", &envelope.frequency, &envelope.amplitude, &marks)
+}
+
+fn times(count: u32, name: &str) -> String {
+    if count == 1 { name.to_owned() } else { format!("{count} × {name}") }
 }
 
 fn passage(one: &RecordingReport, figure: &Figure) -> Value {
-    chart("Averaged passage: signal", "degrees of element travel", &figure.angle, &figure.signal, &events(one))
+    let title = "Averaged passage: signal (unit of the recording)";
+    chart(title, TRAVEL, &figure.angle, &figure.signal, &events(one))
 }
 
 fn level(one: &RecordingReport, figure: &Figure) -> Value {
     let title = "Averaged passage: level of the high-frequency envelope (dB)";
-    chart(title, "degrees of element travel", &figure.angle, &figure.level, &events(one))
+    chart(title, TRAVEL, &figure.angle, &figure.level, &events(one))
 }
 
 fn events(one: &RecordingReport) -> Vec<(f64, String)> {
@@ -111,8 +130,8 @@ fn events(one: &RecordingReport) -> Vec<(f64, String)> {
     edges.chain(impacts).map(|(at, name)| (at, name.to_owned())).collect()
 }
 
-/// A curve in pixels, with what is marked on its axis.
-fn chart(title: &str, unit: &str, x: &[f64], y: &[f64], marks: &[(f64, String)]) -> Value {
+/// A curve in pixels, with numbers on its axes and what is marked.
+fn chart(title: &str, axis: &str, x: &[f64], y: &[f64], marks: &[(f64, String)]) -> Value {
     let ends =
         |values: &[f64]| values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
     let ((left, right), (low, high)) = (ends(x), ends(y));
@@ -124,12 +143,36 @@ fn chart(title: &str, unit: &str, x: &[f64], y: &[f64], marks: &[(f64, String)])
         let (low, high) = ends(y);
         points += &format!("{:.1},{:.1} {:.1},{:.1} ", across(x[0]), down(low), across(x[0]), down(high));
     }
-    let marks = marks.iter().filter(|(at, _)| (left..=right).contains(at));
-    let marks: Vec<Value> =
-        marks.map(|(at, name)| json!({ "x": format!("{:.1}", across(*at)), "name": name })).collect();
-    let axis = format!("{left:.4} to {right:.4} {unit}");
-    let [low, high] = [low, high].map(|value| format!("{value:.3e}"));
-    json!({ "title": title, "axis": axis, "low": low, "high": high, "points": points, "marks": marks })
+    let mut marks: Vec<&(f64, String)> = marks.iter().filter(|(at, _)| (left..=right).contains(at)).collect();
+    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let named = |at: String, name: &str| json!({ "at": at, "name": name });
+    let marks: Vec<Value> = marks.into_iter().map(|(at, name)| named(format!("{:.1}", across(*at)), name)).collect();
+    let x_ticks = ticks(left, right, ACROSS).into_iter().map(|(at, name)| named(format!("{:.1}", across(at)), &name));
+    let y_ticks = ticks(low, high, DOWN).into_iter().map(|(at, name)| named(format!("{:.1}", down(at)), &name));
+    let (x_ticks, y_ticks): (Vec<Value>, Vec<Value>) = (x_ticks.collect(), y_ticks.collect());
+    json!({
+        "title": title, "axis": axis, "points": points, "marks": marks, "x_ticks": x_ticks, "y_ticks": y_ticks
+    })
+}
+
+/// About so many numbers between two ends, one, two or five of a power of ten apart, and as they are written.
+fn ticks(low: f64, high: f64, count: f64) -> Vec<(f64, String)> {
+    let wide = (high - low) / count;
+    if !(wide.is_finite() && wide > 0.0) {
+        return Vec::new();
+    }
+    let power = libm::floor(libm::log10(wide));
+    let ten = libm::pow(10.0, power);
+    let step = ten * [1.0, 2.0, 5.0, 10.0].into_iter().find(|&times| times * ten >= wide).unwrap_or(10.0);
+    let (from, to) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+    let written = |value: f64| {
+        if (1e-3..1e5).contains(&step) {
+            format!("{value:.*}", (-libm::floor(libm::log10(step * 1.000_001))).max(0.0) as usize)
+        } else {
+            format!("{value:.1e}")
+        }
+    };
+    (from..=to).map(|k| k as f64 * step).map(|value| (value, written(value))).collect()
 }
 
 #[cfg(test)]
@@ -156,6 +199,15 @@ mod tests {
         let top: Vec<&[f64; 2]> = points.iter().filter(|point| point[1] == 0.0).collect();
         assert!(top.len() == 1 && (top[0][0] - WIDTH * 0.54321).abs() < 1.1, "{top:?}");
         assert!(points.iter().all(|point| (0.0..=WIDTH).contains(&point[0]) && (0.0..=HEIGHT).contains(&point[1])));
-        assert_eq!(chart["marks"], json!([{ "x": "450.0", "name": "middle" }]));
+        assert_eq!(chart["marks"], json!([{ "at": "450.0", "name": "middle" }]));
+    }
+
+    #[test]
+    fn numbers_on_an_axis_are_round_and_inside() {
+        let names = |low, high, count| ticks(low, high, count).into_iter().map(|(_, name)| name).collect::<Vec<_>>();
+        assert_eq!(names(-80.0, 0.0, 4.0), ["-80", "-60", "-40", "-20", "0"]);
+        assert_eq!(names(-0.31, 0.42, 4.0), ["-0.2", "0.0", "0.2", "0.4"]);
+        assert_eq!(names(0.0, 2.2e-4, 4.0), ["0.0e0", "1.0e-4", "2.0e-4"]);
+        assert!(names(1.0, 1.0, 4.0).is_empty() && names(f64::INFINITY, f64::NEG_INFINITY, 4.0).is_empty());
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde_json::Value;
+use std::f64::consts::TAU;
 
 const RATE: f64 = 51_200.0;
 
@@ -98,9 +99,9 @@ fn a_bearing_of_the_catalogue_and_rpm_are_enough_and_the_answer_is_a_line() {
     let (paged, _, _) = with(&["--bearing", "6205", "--channel", "right", "--report", page.to_str().unwrap()]);
     let text = std::fs::read_to_string(&page).unwrap();
     // The answer, the combs of three kinds, and four curves with the lines of the bearing.
-    assert!(paged && text.contains("<h1>no fault found, no length: ") && text.contains("two.csv"), "{text:.400}");
+    assert!(paged && text.contains("<h1>no fault found, no length</h1>") && text.contains("two.csv"), "{text:.400}");
     assert_eq!(text.matches("<polyline points=\"0.0,").count(), 4);
-    assert!(["rolling element (2 BSF)", ">1 × BPFO<", ">2 × BPFI<", ">shaft<"].iter().all(|part| text.contains(part)));
+    assert!(["rolling element (2 BSF)", ">BPFO<", ">2 × BPFI<", ">shaft<"].iter().all(|part| text.contains(part)));
     assert!(done && said.contains("shaft 10.0000 Hz") && said.contains("a load of 350 N is assumed"), "{said}");
     assert!(said.contains("\nno fault found, no length: "), "{said}");
     let report: Value = serde_json::from_slice(&answer).unwrap();
@@ -112,6 +113,40 @@ fn a_bearing_of_the_catalogue_and_rpm_are_enough_and_the_answer_is_a_line() {
     assert!(!done && said.contains("9999"), "{said}");
     // Neither a scene nor a bearing; both.
     assert!(!with(&["--channel", "2"]).0 && !with(&["--bearing", "6205", "--scene", "6205-healthy"]).0);
+}
+
+#[test]
+fn the_speed_is_sought_in_the_shafts_own_lines_and_refused_where_there_are_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let turning = |i: usize| (1..=6).map(|k| (TAU * f64::from(k) * 17.3 * i as f64 / RATE).sin()).sum::<f64>();
+    let signal = healthy(250_000).iter().enumerate().map(|(i, x)| x + 0.3 * turning(i)).collect();
+    let turns = csv(folder.path(), "turns.csv", &[("acceleration", signal)]);
+    let stands = csv(folder.path(), "stands.csv", &[("acceleration", healthy(250_000))]);
+    let with = |path: &Path, speed: &str| {
+        let output = size(folder.path(), path, &["--rate", "51200", "--speed", speed]);
+        (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for speed in ["auto", "12..30", "720rpm..1800rpm"] {
+        let (done, said) = with(&turns, speed);
+        let found = said.split_once("shaft ").and_then(|(_, rest)| rest.split_once(" Hz, by its own lines"));
+        // Lines of 4.9 s are 0.1 Hz apart in the fifth harmonic's bins.
+        let found: f64 = found.map_or(f64::NAN, |(hertz, _)| hertz.parse().unwrap());
+        assert!(done && (found - 17.3).abs() < 0.1, "{speed}: {found}, {said}");
+    }
+    let refused = [
+        (&stands, "auto", "no lines of a shaft of 5 to 60 Hz"),
+        (&turns, "30..20", "the first must be above 0 and below the second"),
+        (&turns, "0..20", "the first must be above 0"),
+        (&turns, "20..inf", "the first must be above 0"),
+        (&turns, "1..20", "at least 20 are needed"),
+        (&turns, "20..9000", "the 5th line of which is at 45000.0 Hz"),
+        (&turns, "20..fast", "it must be a number of Hz"),
+        (&turns, "slow", "limits as in 20..30, or auto"),
+    ];
+    for (path, speed, why) in refused {
+        let (done, said) = with(path, speed);
+        assert!(!done && said.contains(why), "{speed}: {said}");
+    }
 }
 
 #[test]

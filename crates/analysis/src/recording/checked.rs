@@ -182,6 +182,15 @@ impl Recording {
         }
     }
 
+    /// The same of a shaft at another speed (Hz).
+    ///
+    /// # Errors
+    /// A speed that is not positive.
+    pub fn at_speed(self, speed: f64) -> Result<Self, SizingError> {
+        check_positive(&self.name, "shaft speed", speed)?;
+        Ok(Self { speed, ..self })
+    }
+
     /// Name for messages: the file's.
     pub fn name(&self) -> &str {
         &self.name

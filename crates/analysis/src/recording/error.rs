@@ -174,6 +174,14 @@ pub enum SizingError {
         /// Largest ratio.
         limit: f64,
     },
+    /// The signal does not say how fast the shaft turns.
+    #[error("{name}: {why}; give the speed, or other limits for it")]
+    NoSpeed {
+        /// The recording.
+        name: String,
+        /// What it shows instead.
+        why: String,
+    },
     /// The rate contradicts the file.
     #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
     OtherRate {

@@ -3,13 +3,16 @@
 pub(crate) mod combs;
 pub mod envelope_spectrum;
 mod fault;
+mod found_speed;
 mod frequency_response;
 mod lines;
 mod order_spectrum;
 pub(crate) mod other_speed;
+mod shaft_lines;
 
 pub use combs::{Comb, Combs};
 pub use envelope_spectrum::EnvelopeSpectrum;
 pub use fault::{CombReport, CombsReport, EXISTS, Fault, Grade};
+pub use found_speed::{PLAUSIBLE, find_speed};
 pub use frequency_response::{Fit, FrequencyResponse, ResponseError, response};
 pub use order_spectrum::{EvenAngles, OrderSpectrum};

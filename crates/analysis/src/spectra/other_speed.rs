@@ -15,9 +15,9 @@
 //! frequency over the order of BPFI. Lines of the outer raceway have none at that distance.
 
 use super::combs::{Combs, SLIP};
-use super::fault::Fault;
+use super::fault::{EXISTS, Fault};
 use super::lines::{Lines, QUIET, steps};
-use crate::spectrum;
+use super::shaft_lines::{CONFIRMS, ShaftLines, THERE};
 use crate::spectrum::Spectrum;
 use crate::statistics;
 use brinell::geometry::kinematics::Frequencies;
@@ -30,15 +30,6 @@ const AS_STRONG: f64 = 0.5;
 /// Standard deviations above those at other distances from which sidebands exist: recordings of inner raceways have 6
 /// to 34, of outer ones −1 to 2.7 and one 7; simulated ones of outer raceways up to 4.1.
 const SIDEBANDS: f64 = 5.0;
-/// Harmonics of the shaft that are sought in the signal, and by how much those at one speed must be higher than those
-/// at another one to decide (nepers of power).
-const SHAFT: usize = 5;
-const CONFIRMS: f64 = 1.0;
-/// Height from which lines are a shaft's own (nepers of power): those of recorded machines have 3.4 and more, what
-/// simulations without noise have between their lines 2.3.
-const THERE: f64 = 3.0;
-/// Difference of the shaft's speed from the stated one at which its lines are sought, as a share.
-const NEAR: f64 = 0.015;
 
 /// What confirms the stated speed, in words, if anything does.
 ///
@@ -66,8 +57,8 @@ pub(crate) fn check(
         ));
     }
     let mut others = suiting(comb.frequency, fault, nominal, speed);
-    // What repeats more than what is named may be the fault at its own speed.
-    if combs.elsewhere.share >= comb.share {
+    // What repeats as a fault does may be one at its own speed, although what is named repeats more.
+    if combs.elsewhere.share >= EXISTS {
         others.extend(suiting(combs.elsewhere.frequency, Fault::None, nominal, speed));
     }
     let shaft = ShaftLines::of(signal, rate);
@@ -137,34 +128,4 @@ fn above(chance: &[f64], value: f64) -> f64 {
     let middle = statistics::median(chance);
     let spread = middle - statistics::quantile(chance, 0.1587).unwrap_or(middle);
     (value - middle) / spread.max(0.05)
-}
-
-/// Spectrum of a signal in which the shaft's own lines are sought.
-struct ShaftLines {
-    power: Vec<f64>,
-    /// Hz.
-    bin: f64,
-    /// Distance of two speeds whose highest harmonics are in one line (Hz).
-    step: f64,
-}
-
-impl ShaftLines {
-    fn of(signal: &[f64], rate: f64) -> Self {
-        let (power, bin) = spectrum::power(signal, rate, signal.len());
-        Self { power, bin, step: rate / (signal.len() * SHAFT) as f64 }
-    }
-
-    /// Mean of ln(1 + height above the noise near it) of the lines at the harmonics of a speed (Hz), the most near it.
-    fn height(&self, speed: f64) -> f64 {
-        let mean = |speed: f64| (1..=SHAFT).map(|k| self.line(k as f64 * speed, speed)).sum::<f64>() / SHAFT as f64;
-        steps(speed * (1.0 - NEAR), speed * (1.0 + NEAR), self.step).map(mean).fold(0.0, f64::max)
-    }
-
-    fn line(&self, f: f64, speed: f64) -> f64 {
-        let at = |f: f64| ((f / self.bin).max(0.0) as usize).min(self.power.len());
-        // The main lobe of a line that lies between bins, too.
-        let line = self.power[at(f - self.bin)..at(f + 2.0 * self.bin)].iter().copied().fold(0.0, f64::max);
-        let noise = statistics::median(&self.power[at(f - 0.4 * speed)..at(f + 0.4 * speed)]);
-        if noise > 0.0 { libm::log1p(line / noise) } else { 0.0 }
-    }
 }

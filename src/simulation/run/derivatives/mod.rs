@@ -223,7 +223,8 @@ impl Simulation {
         let Some([v, w_z]) = layout.axial() else { return };
         change.variation.axial.copy_from_slice(&self.present.evaluation.derivative[v..][..z]);
         change.variation.axial_velocity.copy_from_slice(&self.present.evaluation.derivative[w_z..][..z]);
-        change.variation.beyond = self.run.model.ring_rates_in_space(excitation, 0.0, &self.present.evaluation.derivative);
+        change.variation.beyond =
+            self.run.model.ring_rates_in_space(excitation, 0.0, &self.present.evaluation.derivative);
         for (ring, beyond) in excitation.beyond.iter().enumerate() {
             change.accelerations_beyond[ring] = beyond.motion.map(|motion| motion.0[3]);
             change.loads_beyond[ring] = beyond.load.map(|load| load.rate_at(0.0));
@@ -345,7 +346,9 @@ impl Simulation {
             Quantity::ElementPath(j) => variation.path[j],
             Quantity::ElementAxial(j) => variation.axial[j],
             Quantity::ContactAngle(j, side) => forces.contact_angles[side][j],
-            Quantity::ShoulderMargin(j, side) => self.change.of_shoulder(&self.run.model, &self.present.evaluation.forces, j, side),
+            Quantity::ShoulderMargin(j, side) => {
+                self.change.of_shoulder(&self.run.model, &self.present.evaluation.forces, j, side)
+            }
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Count(_) => 0.0,

@@ -1,0 +1,181 @@
+//! The speed of the shaft, found in the signal itself.
+//!
+//! Candidates are the speeds whose own lines stand out ([`ShaftLines`]). A line is explained by another candidate if it
+//! is a passage frequency of the bearing at that one's speed, which makes lines in the signal as well, or if it is a
+//! multiple of that one or a part of its passage frequency and not higher. The highest that is left is the speed, if
+//! none beside it is nearly as high and none is at its half or third, whose lines contain its own. The combs of the
+//! bearing are not asked which of several it is: on recordings they name the same fault at half the speed, and a false
+//! one at a fifth. They check the speed that is found, as they check a stated one.
+
+use super::combs::SLIP;
+use super::shaft_lines::{CONFIRMS, SHAFT, ShaftLines, THERE};
+use crate::recording::SizingError;
+use brinell::geometry::kinematics;
+use brinell::scene::Bearing;
+
+/// Speeds among which one is sought where nothing is known (Hz): machines of 300 to 3600 rev/min.
+pub const PLAUSIBLE: [f64; 2] = [5.0, 60.0];
+/// Fewest turns of the slowest shaft: the noise between two of its lines is then judged by a dozen bins and more.
+const FEWEST_TURNS: f64 = 20.0;
+/// Difference of two speeds up to which they are one, as a share.
+const ONE: f64 = 0.02;
+/// Candidates that are looked at.
+const MOST: usize = 12;
+/// Multiples of a candidate, and parts of its passage frequencies, that it explains.
+const MULTIPLES: u32 = 6;
+const PARTS: u32 = 3;
+/// Parts of the speed at which another shaft may have all of its lines.
+const SLOWER: std::ops::RangeInclusive<u32> = 2..=3;
+
+/// A speed (Hz), and how high the weakest of its lines are (nepers of power).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Candidate {
+    speed: f64,
+    height: f64,
+}
+
+/// The speed (Hz) between two limits (Hz) of the shaft of a signal, sampled at `rate` (Hz).
+///
+/// # Errors
+/// Limits that a signal of this rate and duration cannot show, and speeds of which none stands out or several do.
+pub fn find_speed(
+    name: &str,
+    signal: &[f64],
+    rate: f64,
+    bearing: &Bearing,
+    limits: [f64; 2],
+) -> Result<f64, SizingError> {
+    let refuse = |why: String| SizingError::NoSpeed { name: name.to_owned(), why };
+    check_limits(signal.len() as f64 / rate, rate, limits).map_err(refuse)?;
+    let [low, high] = limits;
+    let all = ShaftLines::of(signal, rate).weakest(low, high);
+    let candidates = candidates(all);
+    let Some(highest) = candidates.first().filter(|highest| highest.height >= THERE) else {
+        let (speed, height) = candidates.first().map_or((low, 0.0), |c| (c.speed, c.height));
+        return Err(refuse(format!(
+            "no lines of a shaft of {low} to {high} Hz: the weakest three of five are at most {height:.1} nepers of \
+             power above the noise, at {speed:.2} Hz, limit {THERE}"
+        )));
+    };
+    let there: Vec<Candidate> = candidates.iter().copied().filter(|c| c.height >= THERE).collect();
+    let orders = orders(bearing);
+    let mut left = there.iter().copied().filter(|one| !there.iter().any(|other| explains(*other, *one, &orders)));
+    let leader = left.next().unwrap_or(*highest);
+    let is_part = |c: &Candidate| SLOWER.into_iter().any(|parts| same(leader.speed, f64::from(parts) * c.speed));
+    let rivals = left.filter(|c| c.height > leader.height - CONFIRMS || is_part(c));
+    let equals: Vec<Candidate> = std::iter::once(leader).chain(rivals).collect();
+    if equals.len() == 1 {
+        return Ok(leader.speed);
+    }
+    let words: Vec<String> = equals.iter().map(|c| format!("{:.2} Hz with {:.1}", c.speed, c.height)).collect();
+    Err(refuse(format!(
+        "the speed of the shaft is not unique: {}, nepers of power of the weakest three of its first five lines; one \
+         must be higher by {CONFIRMS} than all others, and have none at its half or third",
+        words.join(", ")
+    )))
+}
+
+fn check_limits(duration: f64, rate: f64, [low, high]: [f64; 2]) -> Result<(), String> {
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        return Err(format!(
+            "a speed is sought from {low} to {high} Hz: the first must be above 0 and below the second"
+        ));
+    }
+    let top = SHAFT as f64 * high;
+    if top > 0.45 * rate {
+        return Err(format!(
+            "a speed is sought up to {high} Hz, the {SHAFT}th line of which is at {top:.1} Hz: at a sampling rate of \
+             {rate:.1} Hz at most {:.1} Hz is shown",
+            0.45 * rate
+        ));
+    }
+    let turns = low * duration;
+    if turns < FEWEST_TURNS {
+        return Err(format!(
+            "a speed is sought from {low} Hz on, of which {duration:.3} s are {turns:.1} turns: at least \
+             {FEWEST_TURNS} are needed"
+        ));
+    }
+    Ok(())
+}
+
+/// The highest of speeds that are apart from each other, the first highest.
+fn candidates(mut all: Vec<(f64, f64)>) -> Vec<Candidate> {
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut found: Vec<Candidate> = Vec::new();
+    for (speed, height) in all {
+        if found.len() == MOST {
+            break;
+        }
+        if !found.iter().any(|one| same(speed, one.speed)) {
+            found.push(Candidate { speed, height });
+        }
+    }
+    found
+}
+
+fn same(speed: f64, other: f64) -> bool {
+    (speed / other - 1.0).abs() < ONE
+}
+
+/// Passage frequencies of a bearing, as multiples of the shaft's speed.
+fn orders(bearing: &Bearing) -> [f64; 4] {
+    let of = kinematics::frequencies(bearing, 0.0, 1.0);
+    [of.bpfo, of.bpfi, 2.0 * of.bsf, of.bsf]
+}
+
+/// Whether a candidate's shaft makes the lines of another one, too.
+fn explains(shaft: Candidate, other: Candidate, orders: &[f64]) -> bool {
+    let ratio = other.speed / shaft.speed;
+    let passes = |order: f64| (1.0 - SLIP.end()..=1.0 - SLIP.start()).contains(&(ratio / order));
+    let lower = other.height <= shaft.height && shaft != other;
+    orders.iter().any(|&order| passes(order) || lower && (2..=PARTS).any(|parts| passes(order / f64::from(parts))))
+        || lower && (2..=MULTIPLES).any(|multiple| same(ratio, f64::from(multiple)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::Random;
+    use std::f64::consts::TAU;
+
+    const RATE: f64 = 4000.0;
+
+    /// Eight seconds of noise with the first six lines of each frequency (Hz), so high.
+    fn made(lines: &[(f64, f64)]) -> Vec<f64> {
+        let mut random = Random::new(8);
+        let sample = |i: usize| {
+            let t = i as f64 / RATE;
+            let of =
+                |&(f, high): &(f64, f64)| (1..=6).map(|k| high * libm::sin(TAU * f64::from(k) * f * t)).sum::<f64>();
+            lines.iter().map(of).sum::<f64>() + random.normal()
+        };
+        (0..32_000).map(sample).collect()
+    }
+
+    fn found(lines: &[(f64, f64)]) -> Result<f64, String> {
+        let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        find_speed("made", &made(lines), RATE, &bearing, PLAUSIBLE).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_shaft_is_found_although_the_passages_over_a_spall_are_louder() {
+        // A step of the search is 0.025 Hz; a line of 8 s is 0.5 Hz wide, in the fifth harmonic 0.1 Hz of the shaft.
+        for lines in
+            [vec![(12.6, 0.2)], vec![(12.6, 0.2), (3.5848 * 12.6, 0.8)], vec![(12.6, 0.2), (5.4152 * 12.6, 0.8)]]
+        {
+            let speed = found(&lines).unwrap();
+            assert!((speed - 12.6).abs() < 0.1, "{lines:?}: {speed}");
+        }
+    }
+
+    #[test]
+    fn a_second_shaft_at_half_the_speed_is_not_taken_for_none_and_noise_has_no_speed() {
+        let why = found(&[(12.6, 0.2), (6.3, 0.2)]).unwrap_err();
+        assert!(why.contains("not unique") && why.contains("6.3") && why.contains("12.6"), "{why}");
+        let why = found(&[(12.6, 0.2), (17.1, 0.2)]).unwrap_err();
+        assert!(why.contains("not unique") && why.contains("17.1"), "{why}");
+        let why = found(&[]).unwrap_err();
+        assert!(why.contains("no lines of a shaft of 5 to 60 Hz"), "{why}");
+    }
+}
