@@ -9,7 +9,7 @@
 //! is larger than these explain widens the interval. What all share (what the events mean, the contact's law) is not
 //! averaged away.
 
-use super::combined::{self, Combined};
+use super::combined::{self, Combined, Wandering};
 use super::measured::Measured;
 use super::raceway::Raceway;
 use super::report::{Kind, RecordingReport, Report, Verdict};
@@ -70,7 +70,6 @@ pub fn size_with(
         })
         .collect();
     let first = sized.first().ok_or(SizingError::NoRecordings)?;
-    let slips: Vec<f64> = sized.iter().map(|s| s.measured.slip).collect();
     let mut report = Report {
         verdict: Verdict::Unresolved,
         standing: None,
@@ -81,7 +80,7 @@ pub fn size_with(
         uncertainty_mm: None,
         kind: Kind::Undecided,
         bpfo_hz: first.measured.bpfo,
-        slip: statistics::mean(&slips),
+        slip: statistics::mean(&sized.iter().map(|s| s.measured.slip).collect::<Vec<_>>()),
         passages: sized.iter().map(|s| s.measured.passages.starts.len()).sum(),
         reason: String::new(),
         method: None,
@@ -102,8 +101,7 @@ pub fn size_with(
                 sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
             report.reason =
                 std::iter::once(why).chain(each).chain(combined::cuts(&sized)).collect::<Vec<_>>().join("; ");
-            let at_least = onset.err().map(|wandering| wandering.at_least);
-            report.at_least_deg = at_least.into_iter().chain(sized.iter().filter_map(Sized::at_least)).reduce(f64::max);
+            report.at_least_deg = at_least(onset, &sized);
         }
         Ok(Combined { length, uncertainty }) => {
             let mm_per_degree = 1e3 * Raceway::of(report.fault).radius(&scene.bearing) * 1f64.to_radians();
@@ -123,6 +121,12 @@ pub fn size_with(
         }
     }
     Ok(report)
+}
+
+/// What is left of a length (degrees): the least that recordings with wandering onsets have, or the most that one has.
+fn at_least(onset: Result<(), Wandering>, sized: &[Sized]) -> Option<f64> {
+    let wandering = onset.err().map(|wandering| wandering.at_least);
+    wandering.into_iter().chain(sized.iter().filter_map(Sized::at_least)).reduce(f64::max)
 }
 
 /// Equal recordings are one: counted twice it would narrow the interval.
