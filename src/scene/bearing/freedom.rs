@@ -9,8 +9,6 @@
 //! with the radial clearance G, half of a catalogue's internal clearance.
 
 use super::Bearing;
-use crate::scene::quantity::shown;
-use crate::scene::{FreedomError, SceneError};
 use serde::{Deserialize, Serialize};
 
 /// In how many directions a ring moves.
@@ -88,20 +86,6 @@ impl Bearing {
     pub fn clearance_at(&self, contact_angle: f64) -> f64 {
         let half = libm::sin(0.5 * contact_angle);
         2.0 * self.groove_distance() * (half * half)
-    }
-
-    /// Radial clearance (m) that belongs to a total axial play (m).
-    ///
-    /// # Errors
-    /// A play below 0, or one at which the free contact angle is above 60 degrees.
-    pub fn clearance_of_play(&self, axial_play: f64) -> Result<f64, SceneError> {
-        let sine = 0.5 * axial_play / self.groove_distance();
-        let steepest = libm::sqrt(3.0) / 2.0;
-        if !(0.0..=steepest).contains(&sine) {
-            let limit_um = shown(2.0 * self.groove_distance() * steepest * 1e6);
-            return Err(FreedomError::AxialPlay { play_um: shown(axial_play * 1e6), limit_um }.into());
-        }
-        Ok(self.clearance_at(libm::asin(sine)))
     }
 
     /// Gives the bearing a free contact angle (rad), positive where it takes pushes of the inner ring towards +z, and

@@ -180,3 +180,19 @@ fn check_shoulder(height: Option<f64>, groove: f64, of: &Quantity) -> Result<(),
     }
     Ok(())
 }
+
+impl Bearing {
+    /// Radial clearance (m) that belongs to a total axial play (m).
+    ///
+    /// # Errors
+    /// A play below 0, or one at which the free contact angle is above 60 degrees.
+    pub fn clearance_of_play(&self, axial_play: f64) -> Result<f64, SceneError> {
+        let sine = 0.5 * axial_play / self.groove_distance();
+        let steepest = libm::sqrt(3.0) / 2.0;
+        if !(0.0..=steepest).contains(&sine) {
+            let limit_um = shown(2.0 * self.groove_distance() * steepest * 1e6);
+            return Err(FreedomError::AxialPlay { play_um: shown(axial_play * 1e6), limit_um }.into());
+        }
+        Ok(self.clearance_at(libm::asin(sine)))
+    }
+}

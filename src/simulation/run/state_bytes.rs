@@ -127,6 +127,21 @@ fn visit_steps(
     history.numbers().chain(first).try_for_each(|number| real(number, field))
 }
 
+impl State {
+    /// Whether a variable's value is one that can be set.
+    fn is_in_range(&self, variable: &Variable) -> bool {
+        let (value, integer) = (self.reals[variable.reference as usize], self.integers[variable.reference as usize]);
+        match variable.kind {
+            // What inputs have reached since they were set may be beyond what can be set.
+            Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {
+                min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max)
+            }
+            Kind::Enumeration { items, .. } => integer >= 1 && integer as usize <= items.len(),
+            _ => true,
+        }
+    }
+}
+
 impl Simulation {
     /// The state in bytes that [`State::to_bytes`] made of a state of this same model.
     ///
@@ -206,19 +221,7 @@ impl Simulation {
         if (0..layout.len).any(|i| !layout.is_position(i) && progress.state[i].abs() > LARGEST_VELOCITY) {
             return Some("a velocity is one that no part can have");
         }
-        let in_range = |variable: &Variable| {
-            let (value, integer) =
-                (state.reals[variable.reference as usize], state.integers[variable.reference as usize]);
-            match variable.kind {
-                // What inputs have reached since they were set may be beyond what can be set.
-                Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {
-                    min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max)
-                }
-                Kind::Enumeration { items, .. } => integer >= 1 && integer as usize <= items.len(),
-                _ => true,
-            }
-        };
-        if !self.interface.table.iter().all(in_range) {
+        if !self.interface.table.iter().all(|variable| state.is_in_range(variable)) {
             return Some("a parameter is beyond its limits");
         }
         None
