@@ -9,8 +9,6 @@
 //! with the radial clearance G, half of a catalogue's internal clearance.
 
 use super::Bearing;
-use crate::scene::quantity::shown;
-use crate::scene::{FreedomError, SceneError};
 use serde::{Deserialize, Serialize};
 
 /// In how many directions a ring moves.
@@ -90,20 +88,6 @@ impl Bearing {
         2.0 * self.groove_distance() * (half * half)
     }
 
-    /// Radial clearance (m) that belongs to a total axial play (m).
-    ///
-    /// # Errors
-    /// A play below 0, or one at which the free contact angle is above 60 degrees.
-    pub fn clearance_of_play(&self, axial_play: f64) -> Result<f64, SceneError> {
-        let sine = 0.5 * axial_play / self.groove_distance();
-        let steepest = libm::sqrt(3.0) / 2.0;
-        if !(0.0..=steepest).contains(&sine) {
-            let limit_um = shown(2.0 * self.groove_distance() * steepest * 1e6);
-            return Err(FreedomError::AxialPlay { play_um: shown(axial_play * 1e6), limit_um }.into());
-        }
-        Ok(self.clearance_at(libm::asin(sine)))
-    }
-
     /// Gives the bearing a free contact angle (rad), positive where it takes pushes of the inner ring towards +z, and
     /// the clearance that belongs to it.
     pub fn set_contact_angle(&mut self, contact_angle: f64) {
@@ -134,12 +118,10 @@ impl Bearing {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-
     use super::*;
 
     #[test]
-    fn clearance_play_and_free_contact_angle_of_a_6205_belong_together() {
+    fn clearance_and_free_contact_angle_of_a_6205_belong_together() {
         let mut bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
         // Two conformities of 0.52, of which a half is taken: rounding.
         assert!((bearing.groove_distance() / 0.3176e-3 - 1.0).abs() < 1e-13);
@@ -149,8 +131,6 @@ mod tests {
             // Two digits are given.
             assert!((angle.to_degrees() - degrees).abs() < 5e-3, "{}", angle.to_degrees());
             assert!((bearing.clearance_at(angle) / clearance - 1.0).abs() < 1e-14);
-            let play = 2.0 * bearing.groove_distance() * libm::sin(angle);
-            assert!((bearing.clearance_of_play(play).unwrap() / clearance - 1.0).abs() < 1e-14);
         }
         bearing.radial_clearance = -2e-6;
         assert_eq!((bearing.free_contact_angle(), bearing.groove_shifts()), (0.0, [0.0, 0.0]));

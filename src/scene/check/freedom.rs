@@ -109,6 +109,20 @@ impl Scene {
 }
 
 impl Bearing {
+    /// Radial clearance (m) that belongs to a total axial play (m).
+    ///
+    /// # Errors
+    /// A play below 0, or one at which the free contact angle is above 60 degrees.
+    pub fn clearance_of_play(&self, axial_play: f64) -> Result<f64, SceneError> {
+        let sine = 0.5 * axial_play / self.groove_distance();
+        let steepest = libm::sqrt(3.0) / 2.0;
+        if !(0.0..=steepest).contains(&sine) {
+            let limit_um = shown(2.0 * self.groove_distance() * steepest * 1e6);
+            return Err(FreedomError::AxialPlay { play_um: shown(axial_play * 1e6), limit_um }.into());
+        }
+        Ok(self.clearance_at(libm::asin(sine)))
+    }
+
     /// Of a bearing with more than two degrees of freedom.
     fn check_angles(&self) -> Result<(), SceneError> {
         if self.roller().is_some() {
@@ -179,4 +193,21 @@ fn check_shoulder(height: Option<f64>, groove: f64, of: &Quantity) -> Result<(),
         return Err(FreedomError::ShoulderTooHigh { key: of.key, height_mm, limit_mm }.into());
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn an_axial_play_has_the_clearance_of_its_free_contact_angle_and_no_other() {
+        let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        let play = 2.0 * bearing.groove_distance() * libm::sin(bearing.free_contact_angle());
+        assert!((bearing.clearance_of_play(play).unwrap() / bearing.radial_clearance - 1.0).abs() < 1e-14);
+        for play in [-1e-6, 1.8 * bearing.groove_distance(), f64::NAN] {
+            assert!(bearing.clearance_of_play(play).is_err(), "{play}");
+        }
+    }
 }
