@@ -118,7 +118,7 @@ mod tests {
             "| `element_count` | whole number |",
             "| `motion` | `\"host\"`, `\"internal\"`, `\"fixed\"` | ",
             "| `filter` | `\"linear-phase\"`, `\"none\"` | ",
-            "| `load_n` | two numbers |",
+            "| `load_n` | two or three numbers |",
             "| `stop_s` | number | How long it takes. | `0.5` |",
         ] {
             assert!(page.contains(part), "{part} is not in:\n{page}");

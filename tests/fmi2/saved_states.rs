@@ -277,7 +277,7 @@ fn contents_that_no_run_leaves_behind_are_refused_with_the_reason_even_if_the_ch
     let accelerations = cage_rest + 8 + 3 * 16;
     let next_step = accelerations + 3 * 8;
     let gained = next_step + 3 * 8 + 1 + 4 * 4;
-    let path = gained + 2 * 8 + 1 + 4 * 8;
+    let path = gained + 2 * 8 + 1 + 10 * 8;
     let velocity = path + 16 * 8;
     for (offset, value, reason) in [
         (accelerations, f64::NAN, "not finite"),

@@ -41,7 +41,7 @@ fn shows(simulation: &mut Simulation, expected: [&[&str]; 5], digits: f64) {
 }
 
 impl Path {
-    fn is_followed(self) {
+    fn must_be_followed(self) {
         let [x, y, z] = self.load;
         let mut scene = self.scene.shaft_load([x, y]).axial_load(z).damping(Damping::HuntCrossley(0.5));
         scene = scene.law(ContactLaw::Hertz).tolerance(1e-11).experiment(0.01, 1e-4);
@@ -106,7 +106,7 @@ fn an_angular_contact_bearing_whose_load_steps_moves_as_printed() {
             ],
         ],
     }
-    .is_followed();
+    .must_be_followed();
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn a_6205_that_tilts_moves_as_printed() {
             ],
         ],
     }
-    .is_followed();
+    .must_be_followed();
 }
 
 #[test]
@@ -183,5 +183,5 @@ fn a_6205_with_an_outer_spall_that_is_met_at_fifteen_degrees_moves_as_printed() 
             ],
         ],
     }
-    .is_followed();
+    .must_be_followed();
 }

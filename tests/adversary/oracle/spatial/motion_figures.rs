@@ -23,8 +23,11 @@ fn rig(case: SpatialCase, load: [f64; 5], later: [f64; 5]) -> SpatialCase {
     }
 }
 
-/// The start and the end of a run: shaft, u and v of ball 1, its forces and angles inside and outside.
-fn ends(case: &SpatialCase, guess: [f64; 5]) -> [([f64; 5], [f64; 2], [f64; 2], [f64; 2]); 2] {
+/// An instant of a run: shaft (µm, mrad), u and v of ball 1 (µm), its forces (N) and angles (°) inside and outside.
+type Instant = ([f64; 5], [f64; 2], [f64; 2], [f64; 2]);
+
+/// The start and the end of a run.
+fn ends(case: &SpatialCase, guess: [f64; 5]) -> [Instant; 2] {
     let bearing = SpatialBearing::new(case);
     let balance = bearing.balance(case.steps[0].host.as_ref(), guess).expect("a balance");
     assert!(balance.left < 1e-9, "{:e}", balance.left);
@@ -44,7 +47,7 @@ fn ends(case: &SpatialCase, guess: [f64; 5]) -> [([f64; 5], [f64; 2], [f64; 2], 
 }
 
 #[track_caller]
-fn compare(found: ([f64; 5], [f64; 2], [f64; 2], [f64; 2]), expected: ([f64; 5], [f64; 2], [f64; 2], [f64; 2])) {
+fn compare(found: Instant, expected: Instant) {
     // One and a half of the last printed digit of each.
     found.0.into_iter().zip(expected.0).for_each(|(found, expected)| near(found, expected, 1.5e-7));
     found.1.into_iter().zip(expected.1).for_each(|(found, expected)| near(found, expected, 1.5e-7));
