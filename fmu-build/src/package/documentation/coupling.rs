@@ -17,7 +17,7 @@ pub(super) fn of(model: &Model) -> Option<Value> {
     let micro = |step: f64| format!("{:.2} µs", step * 1e6).replace(".00 ", " ");
     let rounded = |step: f64| if step >= 1e-5 { format!("{:.0} µs", step * 1e6) } else { micro(step) };
     Some(context! {
-        load => LOAD,
+        load => format!("{LOAD}"),
         frequency => format!("{:.0}", SECOND_ORDER / step / std::f64::consts::TAU),
         second_order => rounded(step),
         held => rounded(HELD / SECOND_ORDER * step),
