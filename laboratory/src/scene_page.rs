@@ -83,8 +83,11 @@ fn takes(schema: &Value, kind: &Value, path: &str) -> Option<String> {
         "boolean" => "true or false".to_owned(),
         "array" => {
             let each = takes(schema, meant(schema, &kind["items"]), path)?;
-            let count = if kind["minItems"] == 2 && kind["maxItems"] == 2 { "two" } else { "list, each a" };
-            format!("{count} {each}{}", if count == "two" { "s" } else { "" })
+            match [&kind["minItems"], &kind["maxItems"]].map(serde_json::Value::as_u64) {
+                [Some(2), Some(2)] => format!("two {each}s"),
+                [Some(2), Some(3)] => format!("two or three {each}s"),
+                _ => format!("list, each a {each}"),
+            }
         }
         _ => return None,
     })

@@ -197,7 +197,7 @@ fn judge(case: &SpatialCase) -> Result<f64, String> {
     let (mut time, mut judged) = (0.0, 0.0);
     for (i, step) in case.steps.iter().enumerate() {
         let steps = [&mut fine, &mut coarse, &mut pushed].map(|run| run.step(step.length, step.host.as_ref()));
-        if steps.iter().any(|step| *step == Err(Stop::Left)) {
+        if steps.contains(&Err(Stop::Left)) {
             return subject.step(case, i).map_or(Ok(judged), |_| Err(format!("step {i}: the oracle's balls leave")));
         }
         if steps.iter().any(Result::is_err) {
