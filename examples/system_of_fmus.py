@@ -165,7 +165,7 @@ def write_system(path, bearing, rotor, force, start):
 class Unit(Instance):
     """A component of a system: its values and derivatives by connector."""
 
-    def __init__(self, component, folder, iterated):
+    def __init__(self, component, folder, iterated=False):
         super().__init__(os.path.join(folder, component.source), component.name)
         if iterated and "host.repeated_inputs" in self.reference:
             self.slave.setInteger([self.reference["host.repeated_inputs"]], [END])

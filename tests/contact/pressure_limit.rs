@@ -1,6 +1,7 @@
 //! Pressures that stay below a limit: perfect plasticity of the surface, against an independent solution of the same
 //! problem, and a ball on the edge of a spall, whose pressure then has an end.
 
+#![allow(clippy::unwrap_used)]
 use brinell::contact::rolling::RacewaySide;
 use brinell_analysis::pressure::{BallOnRaceway, Border, ConjugateGradients, GridProblem, GridSolver};
 

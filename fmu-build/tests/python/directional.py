@@ -34,7 +34,10 @@ for fmu in sys.argv[1:]:
             host.write([variable.name], [at])
             found = (sides[1] - sides[0]) / (2 * step)
             given = np.array(host.slave.getDirectionalDerivative(unknowns, [variable.valueReference], [1.0]))
-            allowed = 1e-5 * np.abs(given) + 1e-11 * np.maximum(np.abs(middle), 1.0) / step
+            # A part of the stiffness is rounded as its largest one is.
+            stiff = np.array([name.startswith("shaft.stiffness") for name in outputs])
+            size = np.where(stiff, np.abs(middle[stiff]).max(initial=0.0), np.abs(middle))
+            allowed = 1e-5 * np.abs(given) + 1e-11 * np.maximum(size, 1.0) / step
             bad = np.flatnonzero(np.abs(found - given) > allowed)
             assert not len(bad), (
                 f"{fmu}: {outputs[bad[0]]} by {variable.name}: {given[bad[0]]} given, {found[bad[0]]} found"

@@ -47,6 +47,7 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     // Outer contacts see the path, which is measured from the outer ring, and its rate. An element in balance hands on
     // at once what either ring does. Oil films follow the speed.
     let balanced = scene.bearing.element_inertia == ElementInertia::None;
+    let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
     let film = scene.film.is_some();
     let outer =
         if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
@@ -60,8 +61,8 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         }
         Q::Acceleration(Shaft, axis) => inner || input == Input::Load(Shaft, axis),
         Q::Acceleration(Housing, axis) => outer || input == Input::Load(Housing, axis),
-        // Elements in balance are where their centrifugal force puts them.
-        Q::Stiffness(..) => position || ((film || balanced) && speed),
+        // Elements in balance are where their centrifugal force puts them; of balls in space that turns the contacts.
+        Q::Stiffness(..) => position || ((film || balanced || in_space) && speed),
         // Through its spring and damper, along its direction.
         Q::SensorAcceleration(k) => match input {
             Input::Position(Housing, axis) | Input::Velocity(Housing, axis) => {
