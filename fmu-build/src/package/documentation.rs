@@ -196,8 +196,9 @@ mod tests {
     #[test]
     fn the_page_of_a_hosted_ring_says_which_force_is_for_which_algorithm() {
         let page = page("6205-hosted");
-        // The rule with this scene's own steps. Statics give 1.064e8 N/m under 1000 N (`brinell stiffness 6205-healthy`);
-        // between rings of 3.2638 and 6.638 kg ω is 6.97e3 1/s, and 0.1/ω is 14.3 µs.
+        // The rule with this scene's own steps. Statics give 1.064e8 N/m under 1000 N
+        // (`brinell stiffness 6205-healthy`); between rings of 3.2638 and 6.638 kg ω is 6.97e3 1/s, and 0.1/ω is
+        // 14.3 µs.
         for row in ["<td>14 µs</td>", "<code>next_mean_force</code>", "<code>mean_force</code>"] {
             assert!(page.contains(row), "{row}");
         }

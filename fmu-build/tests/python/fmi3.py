@@ -10,7 +10,7 @@ import numpy as np
 from host3 import Host3
 from lxml import etree
 
-NUDGE = {"m": 1e-10, "m/s": 1e-6, "m/s2": 1.0, "N": 0.05, "rad/s": 1e-3}
+NUDGE = {"m": 1e-10, "m/s": 1e-6, "m/s2": 1.0, "N": 0.05, "rad/s": 1e-3, "N.m": 1e-3, "rad": 1e-8, "rad/s2": 1.0}
 # Where the host moves a ring: pressed into the elements, moving a little.
 PRESS = {"shaft.y": -18e-6, "shaft.x": 2e-6, "shaft.vy": 5e-4, "housing.vx": 3e-4}
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
