@@ -47,7 +47,6 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
     // Outer contacts see the path, which is measured from the outer ring, and its rate. An element in balance hands on
     // at once what either ring does. Oil films follow the speed.
     let balanced = scene.bearing.element_inertia == ElementInertia::None;
-    let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
     let film = scene.film.is_some();
     let outer =
         if balanced { inner } else { matches!(input, Input::Velocity(Housing, _)) || ((defect || film) && speed) };
