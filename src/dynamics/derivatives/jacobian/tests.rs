@@ -103,7 +103,6 @@ pub(crate) fn lively_with(
         housing_load: load(-30.0),
         beyond: Default::default(),
         relative_speed: Quadratic([700.0, 8e6, 0.0]),
-        ..Excitation::default()
     };
     (model, excitation)
 }
