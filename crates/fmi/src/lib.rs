@@ -23,6 +23,7 @@ pub(crate) mod arguments;
 mod both_versions;
 pub(crate) mod boundary;
 mod c_interface;
+mod exchange;
 pub mod fmi2;
 pub mod fmi3;
 pub mod instance;

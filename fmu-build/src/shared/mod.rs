@@ -2,7 +2,6 @@
 
 pub mod contact_map;
 pub mod csv;
-pub mod digits;
 pub mod ending;
 pub mod fmi_version;
 pub mod grid;
@@ -20,6 +19,5 @@ pub use project::Project;
 pub use python::Python;
 pub use whole_file::NotWritten;
 
-pub(crate) use digits::digits;
-pub(crate) use numbers::{delimiter, gigapascals, number, seed, speed, whole};
+pub(crate) use numbers::{delimiter, digits, gigapascals, number, seed, speed, whole};
 pub(crate) use talk::{detail, note};

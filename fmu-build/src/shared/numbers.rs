@@ -1,5 +1,5 @@
 //! Numbers of the command line: what is none is refused in plain words. Negative ones are taken for numbers, not for
-//! options, so that the command itself says what is wrong with them.
+//! options, so that the command itself says what is wrong with them. And numbers as people read them.
 
 /// Any number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
@@ -46,6 +46,15 @@ pub(crate) fn delimiter(text: &str) -> Result<char, String> {
         (_, Some(sign), None) => Ok(sign),
         _ => Err("it must be one sign, or tab, or blank".to_owned()),
     }
+}
+
+/// Six significant digits, without the trailing noughts that a change of units leaves.
+pub(crate) fn digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let shown = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+    shown.to_string()
 }
 
 #[cfg(test)]

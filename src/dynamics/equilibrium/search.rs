@@ -20,7 +20,9 @@
 
 use super::element::ElementAtRest;
 pub use super::error::EquilibriumError;
-use super::limits::{DOUBLING, ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, UNBALANCED, longest_step};
+use super::limits::{
+    DOUBLING, ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, Tried, UNBALANCED, as_far_as_it_pushes, longest_step,
+};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{ElementMotion, Meeting, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
@@ -278,24 +280,12 @@ impl Model {
         start: &Balance,
         shortcuts: &mut Shortcuts,
     ) -> Option<(Rings, Balance)> {
-        let push_0 = start.force.dot(&step);
-        let (mut low, mut high) = (0.0, f64::INFINITY);
-        let mut share = 1.0;
-        for _ in 0..100 {
+        as_far_as_it_pushes(start.force.dot(&step), 100, |share| {
             let next = rings + step * share;
             let balance = self.balance(given, next, u, shortcuts);
-            let push = balance.force.dot(&step);
-            if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
-                return Some((next, balance));
-            }
-            if push > 0.0 {
-                low = share
-            } else {
-                high = share
-            }
-            share = 0.5 * (low + high);
-        }
-        None
+            let (push, is_balanced) = (balance.force.dot(&step), balance.residual() <= balance.limit);
+            Tried { there: (next, balance), push, is_balanced }
+        })
     }
 
     fn write(&self, excitation: &Excitation, rings: Rings, u: &[f64], state: &mut [f64]) {

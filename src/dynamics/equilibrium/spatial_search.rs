@@ -5,7 +5,7 @@
 //! The search begins where the bearing is about closed along the axis, in the sense of the axial load.
 
 use super::error::EquilibriumError;
-use super::limits::{ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, UNBALANCED, longest_step};
+use super::limits::{ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, Tried, UNBALANCED, as_far_as_it_pushes, longest_step};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, FramedKinematics, Layout, Model, RINGS, RingInSpace, Space,
@@ -201,23 +201,12 @@ impl Model {
         start: &Balance,
         shortcuts: &mut Shortcuts,
     ) -> Option<(DVector<f64>, Balance)> {
-        let push_0 = start.force.dot(&step);
-        let (mut low, mut high, mut share) = (0.0, f64::INFINITY, 1.0);
-        for _ in 0..60 {
+        as_far_as_it_pushes(start.force.dot(&step), 60, |share| {
             let next = x + &step * share;
             let balance = self.spatial_balance(given, &next, balls, shortcuts);
-            let push = balance.force.dot(&step);
-            if balance.residual() <= balance.limit || push.abs() <= 0.5 * push_0 || (push > 0.0 && high.is_infinite()) {
-                return Some((next, balance));
-            }
-            if push > 0.0 {
-                low = share
-            } else {
-                high = share
-            }
-            share = 0.5 * (low + high);
-        }
-        None
+            let (push, is_balanced) = (balance.force.dot(&step), balance.residual() <= balance.limit);
+            Tried { there: (next, balance), push, is_balanced }
+        })
     }
 
     /// Refuses a balance in which a ball has none.

@@ -5,39 +5,14 @@
 use super::functions::ALWAYS;
 use super::types::{Bool, FALSE, Instance as Handle, Status};
 use crate::arguments::{array, array_mut, store};
-use crate::boundary;
+use crate::exchange::{AT_ANY_TIME, Done, Instance};
 use crate::instance::Mode::{ContinuousTime, Error, Event, Terminated};
-use crate::instance::{Function, Mode, Modes, PerItem, Version, modes};
+use crate::instance::{Mode, Modes, PerItem, modes};
 
-/// Functions by name and arguments, the modes in which they may be called, and what they do.
-macro_rules! functions {
-    ($($(#[$meaning:meta])* $name:ident($($argument:ident: $type:ty),*) $within:expr, $body:expr;)*) => {$(
-        $(#[$meaning])*
-        ///
-        /// # Safety
-        /// `instance` may be any value; pointers are null or point to what their names say, arrays to as many elements
-        /// as said.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(instance: Handle, $($argument: $type),*) -> Status {
-            const ANY: Function = Function { name: stringify!($name), version: Version::Fmi3, allowed: ALWAYS };
-            const WITHIN: Modes = $within;
-            const HERE: Function = Function { name: stringify!($name), version: Version::Fmi3, allowed: WITHIN };
-            boundary::call(instance, &ANY, |instance| {
-                instance.exchanges(&HERE, &WITHIN)?;
-                #[allow(clippy::redundant_closure_call)]
-                ($body)(instance, &HERE, $($argument),*)
-            })
-        }
-    )*};
-}
-
-type Instance<'a> = &'a mut crate::instance::Instance;
-type Done = Result<(), crate::instance::Failure>;
-
-const AT_ANY_TIME: Modes = modes([Mode::Initialization, Event, ContinuousTime, Terminated, Error]);
 const COUNTED: Modes = modes([Mode::Instantiated, Mode::Initialization, Event, ContinuousTime, Terminated, Error]);
 
-functions! {
+crate::exchange::functions! {
+    Fmi3, Handle;
     /// `fmi3EnterEventMode`.
     fmi3EnterEventMode() modes([ContinuousTime]), |instance: Instance, function| -> Done {
         instance.enter(Event, function);
