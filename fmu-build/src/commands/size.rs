@@ -121,10 +121,10 @@ fn read(paths: &[PathBuf], options: &Options, bearing: &scene::Bearing) -> Resul
     }
     let speeds = options.speeds.iter().cycle();
     let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
-        // Until it is found it stands at the slowest that is considered.
+        // Until it is found a speed that can be stands in for it: limits are judged where it is sought.
         let stated = match speed {
             ShaftSpeed::Stated(speed) => speed.clone(),
-            ShaftSpeed::Sought([low, _]) => Speed::Constant(*low),
+            ShaftSpeed::Sought(_) => Speed::Constant(PLAUSIBLE[0]),
         };
         let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text: options.text };
         let recording = Recording::read(path, &source)?;

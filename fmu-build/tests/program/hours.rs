@@ -171,7 +171,6 @@ fn is_what_happens(page: &str) -> String {
 }
 
 #[test]
-#[ignore = "the page was typed before commands of the axial model and of hosts: to be written anew"]
 fn an_hour_with_a_catalogue_is_what_happens() {
     is_what_happens("catalogue.md");
 }

@@ -77,11 +77,14 @@ impl Simulation {
     /// use brinell::scene::{Bearing, Scene};
     /// use brinell::simulation::Simulation;
     ///
-    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3); let scene =
-    /// Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?; let mut simulation =
-    /// Simulation::new(scene, None)?; simulation.initialize(0.0)?; // A step in parts, watched, and ended where the
-    /// load on element 1 is gone. let force = simulation.reference("element[1].force.outer")?; let mut under_way =
-    /// simulation.begin_step(1e-2)?; while !under_way.is_done() {
+    /// let bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+    /// let scene = Scene::builder(bearing).shaft_speed(157.1).shaft_load([0.0, -1500.0]).build()?;
+    /// let mut simulation = Simulation::new(scene, None)?;
+    /// simulation.initialize(0.0)?;
+    /// // A step in parts, watched, and ended where the load on element 1 is gone.
+    /// let force = simulation.reference("element[1].force.outer")?;
+    /// let mut under_way = simulation.begin_step(1e-2)?;
+    /// while !under_way.is_done() {
     ///     simulation.advance_once(&mut under_way)?;
     ///     let inspection = simulation.inspect(&under_way);
     ///     let mut value = [0.0];
@@ -90,7 +93,9 @@ impl Simulation {
     ///     if value[0] == 0.0 {
     ///         break;
     ///     }
-    /// } simulation.end_step(under_way); assert!(simulation.time() <= 1e-2);
+    /// }
+    /// simulation.end_step(under_way);
+    /// assert!(simulation.time() <= 1e-2);
     /// # Ok::<(), brinell::Error>(())
     /// ```
     ///
