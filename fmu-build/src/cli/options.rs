@@ -33,7 +33,7 @@ pub struct Build {
     /// How it is simulated: the FMU integrates, the host does, or either
     #[arg(long, value_enum, default_value_t, value_name = "KIND")]
     pub(super) kind: Kind,
-    /// How variables are named: element[3].path or element_3_path
+    /// How variables are named: `element[3].path` or `element_3_path`
     #[arg(long, value_enum, default_value_t, value_name = "NAMES")]
     pub(super) names: Names,
     /// FMI 3.0 for hosts without arrays: a variable for each element, counters as Int64

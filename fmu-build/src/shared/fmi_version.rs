@@ -27,10 +27,10 @@ pub enum Kind {
 /// How variables are named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Names {
-    /// element[3].force.outer
+    /// `element[3].force.outer`
     #[default]
     Structured,
-    /// element_3_force_outer
+    /// `element_3_force_outer`
     Flat,
 }
 
