@@ -59,6 +59,8 @@ pub struct Space {
     pub largest_shift: f64,
     /// Force of the preload springs on both rings along z (N).
     pub preload: [f64; 2],
+    /// Whether rings may tilt.
+    pub tilts: bool,
     /// Which coordinates of the rings forces move.
     pub free: [bool; RINGS],
     /// Support of each body.
@@ -115,6 +117,7 @@ impl Space {
             pitch_radius: 0.5 * bearing.pitch_diameter,
             largest_shift: bearing.groove_distance(),
             preload: [sense * scene.shaft.axial.preload, -sense * scene.housing.axial.preload],
+            tilts,
             free,
             bodies,
             polar_inertia: [&scene.shaft, &scene.housing].map(|ring| ring.tilt.polar_inertia),
