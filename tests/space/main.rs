@@ -6,6 +6,7 @@ mod balance;
 mod derivatives;
 mod laws;
 mod motion;
+mod statics;
 
 use brinell::scene::{Bearing, DegreesOfFreedom, Ring, Scene, SceneBuilder};
 use brinell::simulation::Simulation;

@@ -141,6 +141,11 @@ impl Space {
         self.bodies[coordinate].inverse_inertia
     }
 
+    /// Mass (kg) or moment of inertia (kg m²) of a coordinate of the rings; `None` where forces move nothing.
+    pub fn inertia(&self, coordinate: usize) -> Option<f64> {
+        self.free[coordinate].then(|| 1.0 / self.inverse_inertia(coordinate))
+    }
+
     /// Stiffness of the rings' supports (N/m, N m/rad).
     pub(in crate::dynamics) fn support_stiffness(&self, coordinate: usize) -> f64 {
         self.bodies[coordinate].stiffness
