@@ -2,7 +2,9 @@
 //! against laws.
 #![allow(clippy::unwrap_used)]
 
+mod arrangements;
 mod balance;
+mod defects;
 mod derivatives;
 mod laws;
 mod motion;

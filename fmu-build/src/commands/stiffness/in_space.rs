@@ -19,7 +19,8 @@ pub(super) fn command(project: &Project, model: &Model, options: Options, folder
     let scene = options.load.map_or_else(|| model.scene.clone(), |amount| loaded(&model.scene, amount));
     let map = contact_map::of(&scene, model.profile_texts(), project)?;
     let bearing = BearingInSpace::new(&scene, model.profile_texts(), map.as_deref())?;
-    let balances = bearing.sweep(scene.cage.initial_angle, options.points.unwrap_or_else(|| enough_points(bearing.period(), None)))?;
+    let balances = bearing
+        .sweep(scene.cage.initial_angle, options.points.unwrap_or_else(|| enough_points(bearing.period(), None)))?;
     let path = beside(&folder.join(&scene.name), "-stiffness.csv");
     let (names, columns) = table(&balances, bearing.order());
     csv::table(&path, &names, &columns)?;
