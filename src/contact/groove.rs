@@ -39,8 +39,10 @@ pub struct Groove {
 /// Direction of a ring's axis, and the velocity with which it turns (rad/s).
 #[derive(Debug, Clone, Copy)]
 pub struct Axis<T> {
-    direction: Spatial<T>,
-    turning: Spatial<T>,
+    /// a
+    pub direction: Spatial<T>,
+    /// a × ȧ (rad/s)
+    pub turning: Spatial<T>,
 }
 
 /// Where a ball meets a groove.
@@ -85,6 +87,27 @@ impl Groove {
     }
 }
 
+/// What a ball's contact needs of the axis of its ring: that of a ring that may tilt, or one along z with nothing to work
+/// out.
+pub trait RingAxis<T: Number>: Copy {
+    /// Part h of q along the axis, distance g from it (m), and direction e in which q is away from it.
+    fn split(&self, q: Spatial<T>) -> (T, T, Spatial<T>);
+    /// n_e e + n_a a
+    fn in_meridian(&self, e: Spatial<T>, parts: [T; 2]) -> Spatial<T>;
+    /// a × e
+    fn around(&self, e: Spatial<T>) -> Spatial<T>;
+    /// Velocity (m/s) against the ring of what is at q and moves at `rate` (m/s).
+    fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T>;
+}
+
+/// Axis of a ring that does not tilt.
+#[derive(Debug, Clone, Copy)]
+pub struct Upright;
+
+/// The same of the ring that directions are seen from: a ball is straight outwards.
+#[derive(Debug, Clone, Copy)]
+pub struct Concentric;
+
 impl<T: Number> Axis<T> {
     /// Of a ring that is tilted (rad) about the first two axes, and tilts further (rad/s).
     #[inline(always)]
@@ -96,36 +119,105 @@ impl<T: Number> Axis<T> {
             turning: [rate_x / square, rate_y / square, (x * rate_y - y * rate_x) / square],
         }
     }
+
+    /// The same by axes of which the first two are turned by `turned`.
+    #[inline(always)]
+    pub fn seen(&self, turned: impl Fn(T, T) -> [T; 2]) -> Self {
+        let ([a_x, a_y, a_z], [t_x, t_y, t_z]) = (self.direction, self.turning);
+        let ([a_x, a_y], [t_x, t_y]) = (turned(a_x, a_y), turned(t_x, t_y));
+        Self { direction: [a_x, a_y, a_z], turning: [t_x, t_y, t_z] }
+    }
+}
+
+impl<T: Number> RingAxis<T> for Axis<T> {
+    #[inline(always)]
+    fn split(&self, q: Spatial<T>) -> (T, T, Spatial<T>) {
+        let height = dot(q, self.direction);
+        let radial = minus(q, times(self.direction, height));
+        let distance = dot(radial, radial).sqrt();
+        (height, distance, times(radial, q[0].all(1.0) / distance))
+    }
+
+    #[inline(always)]
+    fn in_meridian(&self, e: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
+        plus(times(e, n_e), times(self.direction, n_a))
+    }
+
+    #[inline(always)]
+    fn around(&self, e: Spatial<T>) -> Spatial<T> {
+        cross(self.direction, e)
+    }
+
+    #[inline(always)]
+    fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
+        minus(rate, cross(self.turning, q))
+    }
+}
+
+impl<T: Number> RingAxis<T> for Upright {
+    #[inline(always)]
+    fn split(&self, [q_x, q_y, q_z]: Spatial<T>) -> (T, T, Spatial<T>) {
+        let distance = (q_x * q_x + q_y * q_y).sqrt();
+        let per_distance = q_x.all(1.0) / distance;
+        (q_z, distance, [q_x * per_distance, q_y * per_distance, q_x.all(0.0)])
+    }
+
+    #[inline(always)]
+    fn in_meridian(&self, [e_x, e_y, _]: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
+        [e_x * n_e, e_y * n_e, n_a]
+    }
+
+    #[inline(always)]
+    fn around(&self, [e_x, e_y, e_z]: Spatial<T>) -> Spatial<T> {
+        [-e_y, e_x, e_z]
+    }
+
+    #[inline(always)]
+    fn velocity(&self, _: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
+        rate
+    }
+}
+
+impl<T: Number> RingAxis<T> for Concentric {
+    #[inline(always)]
+    fn split(&self, [q_r, _, q_z]: Spatial<T>) -> (T, T, Spatial<T>) {
+        (q_z, q_r, [q_r.all(1.0), q_r.all(0.0), q_r.all(0.0)])
+    }
+
+    #[inline(always)]
+    fn in_meridian(&self, [_, none, _]: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
+        [n_e, none, n_a]
+    }
+
+    #[inline(always)]
+    fn around(&self, [one, none, _]: Spatial<T>) -> Spatial<T> {
+        [none, one, none]
+    }
+
+    #[inline(always)]
+    fn velocity(&self, _: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
+        rate
+    }
 }
 
 impl<T: Number> GrooveContact<T> {
     /// Of a ball whose centre is at `q` (m) from the ring's, whose axis is `axis`.
     #[inline(always)]
-    pub fn of(groove: &Groove, q: Spatial<T>, axis: &Axis<T>) -> Self {
-        let (a, constant) = (axis.direction, |value: f64| q[0].all(value));
-        let height = dot(q, a);
-        let radial = minus(q, times(a, height));
-        let distance = dot(radial, radial).sqrt();
-        let outwards = times(radial, constant(1.0) / distance);
+    pub fn of(groove: &Groove, q: Spatial<T>, axis: &impl RingAxis<T>) -> Self {
+        let (constant, (height, distance, outwards)) = (|value: f64| q[0].all(value), axis.split(q));
         let (in_radius, along) = (constant(groove.centre_radius) - distance, constant(groove.shift) - height);
         let length = (in_radius * in_radius + along * along).sqrt();
-        let meridian = [in_radius / length, along / length];
-        let [n_e, n_a] = meridian;
+        let per_length = constant(1.0) / length;
+        let [n_e, n_a] = [in_radius * per_length, along * per_length];
         Self {
             approach: length - q[0].plain(groove.reach),
-            normal: plus(times(outwards, n_e), times(a, n_a)),
-            across: minus(times(a, n_e), times(outwards, n_a)),
-            around: cross(a, outwards),
+            normal: axis.in_meridian(outwards, [n_e, n_a]),
+            across: axis.in_meridian(outwards, [-n_a, n_e]),
+            around: axis.around(outwards),
             outwards,
             distance,
-            meridian,
+            meridian: [n_e, n_a],
         }
-    }
-
-    /// Velocity v (m/s) of the ball's centre against the ring as its `q` (m) changes at `rate` (m/s).
-    #[inline(always)]
-    pub fn velocity(q: Spatial<T>, rate: Spatial<T>, axis: &Axis<T>) -> Spatial<T> {
-        minus(rate, cross(axis.turning, q))
     }
 
     /// Rate δ̇ (m/s) at which the ball moves into the smooth groove with this velocity.
@@ -140,18 +232,12 @@ impl<T: Number> GrooveContact<T> {
         dot(self.around, velocity) / self.distance
     }
 
-    /// Force on the ball (N) of a contact that exerts `force` (N) along the normal and `tangential` around the ring,
-    /// its `magnitude` damped across the groove with `damping` χ_a (s/m): F_t = −χ_a Q (t·v) t.
+    /// Force on the ball (N) of a contact that exerts `force` (N) along the normal, its `magnitude` damped across the
+    /// groove with `damping` χ_a (s/m): F_t = −χ_a Q (t·v) t.
     #[inline(always)]
-    pub fn force(
-        &self,
-        [force, tangential]: [T; 2],
-        magnitude: T,
-        damping: T::Plain,
-        velocity: Spatial<T>,
-    ) -> Spatial<T> {
+    pub fn force(&self, force: T, magnitude: T, damping: T::Plain, velocity: Spatial<T>) -> Spatial<T> {
         let creep = magnitude * dot(self.across, velocity) * damping;
-        minus(plus(times(self.normal, force), times(self.around, tangential)), times(self.across, creep))
+        minus(times(self.normal, force), times(self.across, creep))
     }
 }
 
@@ -167,8 +253,9 @@ pub fn cross<T: Number>(a: Spatial<T>, b: Spatial<T>) -> Spatial<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// a + b
 #[inline(always)]
-fn plus<T: Number>(a: Spatial<T>, b: Spatial<T>) -> Spatial<T> {
+pub fn plus<T: Number>(a: Spatial<T>, b: Spatial<T>) -> Spatial<T> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
@@ -177,8 +264,9 @@ fn minus<T: Number>(a: Spatial<T>, b: Spatial<T>) -> Spatial<T> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+/// a times a number.
 #[inline(always)]
-fn times<T: Number>(a: Spatial<T>, by: T) -> Spatial<T> {
+pub fn times<T: Number>(a: Spatial<T>, by: T) -> Spatial<T> {
     [a[0] * by, a[1] * by, a[2] * by]
 }
 
@@ -254,7 +342,7 @@ mod tests {
                 let at = [0.012 + q[0], 0.0145 + q[1], q[2]];
                 let axis = Axis::tilted(tilt, tilt_rate);
                 let contact = GrooveContact::of(&groove, at, &axis);
-                let velocity = GrooveContact::velocity(at, rate, &axis);
+                let velocity = axis.velocity(at, rate);
                 let moved: [Changing; 3] = std::array::from_fn(|i| changing(at[i], rate[i]));
                 let tilted: [Changing; 2] = std::array::from_fn(|i| changing(tilt[i], tilt_rate[i]));
                 let found = GrooveContact::of(&groove, moved, &Axis::tilted(tilted, [Changing::constant(0.0); 2]));

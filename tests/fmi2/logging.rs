@@ -143,3 +143,22 @@ fn a_logger_that_unwinds_fails_its_instance_and_leaves_the_process_alone() {
         fmi2FreeInstance(c);
     }
 }
+
+#[test]
+fn contacts_that_a_shoulder_cuts_are_warned_of_once() {
+    let host = Host::started("7205-preloaded");
+    let warnings = |host: &Host| {
+        let lines = host.lines().into_iter();
+        lines.filter(|line| line.status == Status::Warning && line.message.contains("shoulder")).count()
+    };
+    host.step(0.0, 1e-4);
+    assert_eq!(warnings(&host), 0);
+    // Two hundred times the preload: the ellipses reach over the edges of their grooves.
+    assert_eq!(host.set(&[host.reference("shaft.load.z")], &[60e3]), Status::Ok);
+    for step in 1..4 {
+        assert_eq!(host.step(f64::from(step) * 1e-3 - 9e-4, 1e-3), Status::Ok);
+    }
+    let cut = host.get_integers(&[host.reference("solver.truncated_contacts")]).unwrap()[0];
+    assert!(cut > 1, "{cut}");
+    assert_eq!(warnings(&host), 1);
+}

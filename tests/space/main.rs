@@ -2,10 +2,13 @@
 //! against laws.
 #![allow(clippy::unwrap_used)]
 
+mod arrangements;
 mod balance;
+mod defects;
 mod derivatives;
 mod laws;
 mod motion;
+mod statics;
 
 use brinell::scene::{Bearing, DegreesOfFreedom, Ring, Scene, SceneBuilder};
 use brinell::simulation::Simulation;

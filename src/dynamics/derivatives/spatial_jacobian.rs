@@ -5,19 +5,21 @@
 //! the rings' positions and velocities, and time.
 
 use super::fastest::{BodyIndices, Fastest};
-use crate::contact::groove::Spatial;
+use crate::contact::groove::{Axis, Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, Frames, Layout, Model, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies,
     Turn,
 };
-use crate::dynamics::spatial::BallMotion;
+use crate::dynamics::spatial::{Ball, BallMotion, MOVING, axis_of};
 use crate::numerics::number::Dual;
 use crate::numerics::plane::turned;
 use crate::scene::Motion;
 
 /// Derivatives: by u, v, w and w_z, by the rings' positions, by their velocities, by time.
 type Changing = Dual<f64, { 4 + 2 * RINGS + 1 }>;
+/// Derivatives by what a contact depends on.
+type ByMotion = Dual<f64, MOVING>;
 const TIME: usize = 4 + 2 * RINGS;
 
 /// One ball's rows and columns.
@@ -185,7 +187,8 @@ fn principal(m: [[f64; 2]; 2]) -> [f64; 2] {
 /// What all balls share while the Jacobian is put together.
 struct Shared {
     rings: [RingInSpace<Changing>; 2],
-    frames: Frames<Changing>,
+    axes: [Axis<Changing>; 2],
+    frames: Frames<ByMotion>,
     now: crate::dynamics::parameters::FramedKinematics,
     still: [RingInSpace; 2],
     /// Forces on the rings by the rings' positions, velocities and by time.
@@ -210,16 +213,17 @@ impl Model {
         }
         let [v, w, w_z] = jacobian.starts;
         for j in 0..self.element_count {
-            let at = self.changing_ball(j, &shared, shortcuts);
+            let (at, turning) = self.changing_ball(j, &shared, shortcuts);
             let states = [j, v + j, w + j, w_z + j];
-            let ball_state = [0, 1, 2, 3].map(|k| Changing::variable(state[states[k]], k));
-            let ball = at.ball(self, space, ball_state);
-            let found = self.ball_forces(space, self.cells_of(cells, j), &at, &ball, shortcuts);
-            let [f_r, _, f_z] = found.force();
+            let [u, v, w, w_z] = [0, 1, 2, 3].map(|k| Changing::variable(state[states[k]], k));
+            let ball = at.ball_between(self, [u, v], Ball::rates(at.e_r, [w, w_z], &at.rings[1]), &shared.axes);
+            let time = (&turning, Changing::variable(0.0, TIME));
+            let [inner, outer] = self.chained_on_ball(space, self.cells_of(cells, j), time, &ball, shortcuts);
+            let [f_r, _, f_z] = plus(inner.force, outer.force);
             let gravity: Spatial<Changing> = [self.gravity.x, self.gravity.y, space.gravity].map(Changing::constant);
             let rates = ball.accelerations([f_r, f_z], self.inverse_element_mass, gravity);
             let part = |of: &Changing, from: usize| std::array::from_fn(|i| of.by[from + i]);
-            let on_rings = found.on_rings();
+            let on_rings = [ball.on_ring(&inner), ball.on_ring(&outer)];
             let block = &mut jacobian.balls[j];
             block.e_r = ball.e_r.map(|e| e.value);
             block.by_ball = rates.map(|rate| std::array::from_fn(|i| rate.by[i]));
@@ -291,7 +295,8 @@ impl Model {
             let Turn { angle, speed } = now.frames.0[i];
             Turn { angle: by_time(angle, rates[i][0]), speed: by_time(speed, rates[i][1]) }
         }));
-        Shared { rings, frames, now, still, forces: [[0.0; 2 * RINGS + 1]; RINGS] }
+        let axes = [axis_of(&rings[0]), axis_of(&rings[1])];
+        Shared { rings, axes, frames, now, still, forces: [[0.0; 2 * RINGS + 1]; RINGS] }
     }
 
     /// Velocity and acceleration of each ring as the host prescribes them; 0 of one that it does not move.
@@ -302,20 +307,25 @@ impl Model {
         })
     }
 
-    fn changing_ball(&self, j: usize, shared: &Shared, shortcuts: &mut Shortcuts) -> BallMotion<Changing> {
+    /// Ball `j` as all changes, and what turns with time as contacts are to know it.
+    fn changing_ball(
+        &self,
+        j: usize,
+        shared: &Shared,
+        shortcuts: &mut Shortcuts,
+    ) -> (BallMotion<Changing>, BallMotion<ByMotion>) {
         let at = self.ball_motion(j, &shared.now, &shared.still, shortcuts);
         let lead = self.lead_with(j, shared.now.cage_angle(), &mut shortcuts.leads);
         let [omega, alpha] = lead.speed(&shared.now.cage);
         let e_t = turned(at.e_r.into());
-        BallMotion {
-            element: j,
+        let changing = BallMotion {
             e_r: [by_time(at.e_r[0], e_t.x * omega), by_time(at.e_r[1], e_t.y * omega)],
-            angle: by_time(at.angle, omega),
             omega: by_time(omega, alpha),
             rings: shared.rings,
-            frames: shared.frames,
-            curved: true,
-        }
+            ..at.lifted()
+        };
+        let (angle, omega) = (by_time(at.angle, omega), by_time(omega, alpha));
+        (changing, BallMotion { angle, omega, frames: shared.frames, ..at.lifted() })
     }
 
     /// The bodies' own part, once the balls' forces are there.
@@ -363,9 +373,9 @@ impl Model {
     }
 }
 
-/// A number that changes by time alone.
-fn by_time(value: f64, rate: f64) -> Changing {
-    let mut found = Changing::constant(value);
-    found.by[TIME] = rate;
+/// A number that changes by time alone, the last of what it might change by.
+fn by_time<const K: usize>(value: f64, rate: f64) -> Dual<f64, K> {
+    let mut found = Dual::constant(value);
+    found.by[K - 1] = rate;
     found
 }

@@ -95,7 +95,7 @@ impl Model {
             (change.inner[j], change.outer[j]) = (inner.magnitude.by[0], outer.magnitude.by[0]);
             for side in 0..2 {
                 let pushes = found.contacts[side].magnitude.value > 0.0;
-                let meridian = found.ball.places[side].contact.meridian;
+                let meridian = found.contacts[side].place.contact.meridian;
                 // The angle turns with the direction, whichever way that is counted.
                 change.contact_angles[side][j] = if pushes { Changing::angle_of(meridian).by[0] } else { 0.0 };
             }
@@ -149,7 +149,7 @@ impl Model {
             changing(state[self.layout.radial_velocity + j], by.radial_velocity[j]),
             changing(state[w_z + j], by.axial_velocity[j]),
         ];
-        let ball = at.ball(self, space, ball);
+        let ball = at.ball(self, ball);
         self.ball_forces(space, self.cells_of(cells, j), at, &ball, shortcuts)
     }
 

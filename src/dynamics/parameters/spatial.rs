@@ -59,6 +59,8 @@ pub struct Space {
     pub largest_shift: f64,
     /// Force of the preload springs on both rings along z (N).
     pub preload: [f64; 2],
+    /// Whether rings may tilt.
+    pub tilts: bool,
     /// Which coordinates of the rings forces move.
     pub free: [bool; RINGS],
     /// Support of each body.
@@ -115,6 +117,7 @@ impl Space {
             pitch_radius: 0.5 * bearing.pitch_diameter,
             largest_shift: bearing.groove_distance(),
             preload: [sense * scene.shaft.axial.preload, -sense * scene.housing.axial.preload],
+            tilts,
             free,
             bodies,
             polar_inertia: [&scene.shaft, &scene.housing].map(|ring| ring.tilt.polar_inertia),
@@ -136,6 +139,11 @@ impl Space {
     /// 1/inertia of a coordinate (1/kg, 1/(kg m²)); 0 where forces move nothing.
     pub(in crate::dynamics) fn inverse_inertia(&self, coordinate: usize) -> f64 {
         self.bodies[coordinate].inverse_inertia
+    }
+
+    /// Mass (kg) or moment of inertia (kg m²) of a coordinate of the rings; `None` where forces move nothing.
+    pub fn inertia(&self, coordinate: usize) -> Option<f64> {
+        self.free[coordinate].then(|| 1.0 / self.inverse_inertia(coordinate))
     }
 
     /// Stiffness of the rings' supports (N/m, N m/rad).

@@ -9,16 +9,16 @@
 //! ```
 //! F is the force of both contacts on the ball. On a ring acts −F with the moment −q × F about its centre.
 
-use crate::contact::groove::{Axis, Groove, GrooveContact, Spatial, cross};
+use crate::contact::groove::{Axis, Concentric, Groove, GrooveContact, RingAxis, Spatial, Upright, cross, plus, times};
 use crate::dynamics::parameters::{COORDINATES, RingInSpace};
 use crate::numerics::number::Number;
 
 /// What is known of a ball: u, v (m), w and w_z (m/s).
 pub(in crate::dynamics) type BallState<T> = [T; 4];
 
-/// A ball between the grooves.
+/// A ball as the rings see it, whose axes are `I` and `O`.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Ball<T> {
+pub(in crate::dynamics) struct Ball<T, I = Axis<T>, O = Axis<T>> {
     /// Direction e_r.
     pub(in crate::dynamics) e_r: [T; 2],
     /// Its speed about the outer ring's centre (rad/s).
@@ -29,8 +29,19 @@ pub(in crate::dynamics) struct Ball<T> {
     pub(in crate::dynamics) rates: [T; 2],
     /// ẋ_o·e_t (m/s).
     around: T,
-    /// Where it meets the inner and the outer groove.
-    pub(in crate::dynamics) places: [Place<T>; 2],
+    /// How it is seen from the inner ring and from the outer one.
+    pub(in crate::dynamics) seen: (Seen<T, I>, Seen<T, O>),
+}
+
+/// A ball seen from one ring, along e_r, e_t and z.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Seen<T, A = Axis<T>> {
+    /// Where it is (m).
+    pub(in crate::dynamics) q: Spatial<T>,
+    /// How fast it goes (m/s).
+    pub(in crate::dynamics) rate: Spatial<T>,
+    /// The ring's axis.
+    pub(in crate::dynamics) axis: A,
 }
 
 /// Where a ball meets one groove.
@@ -63,32 +74,58 @@ fn shown<T: Number>([e_x, e_y]: [T; 2], r: T, t: T) -> [T; 2] {
     [r * e_x - t * e_y, r * e_y + t * e_x]
 }
 
+/// Axis of a ring, along x, y and z.
+#[inline(always)]
+pub(in crate::dynamics) fn axis_of<T: Number>(ring: &RingInSpace<T>) -> Axis<T> {
+    let (x, v) = (&ring.position, &ring.velocity);
+    Axis::tilted([x[3], x[4]], [v[3], v[4]])
+}
+
+/// A ring's axis as it is given to a ball in direction e_r.
+pub(in crate::dynamics) trait SeenAxis<T: Number>: RingAxis<T> {
+    fn along(&self, e_r: [T; 2]) -> Self;
+}
+
+impl<T: Number> SeenAxis<T> for Axis<T> {
+    #[inline(always)]
+    fn along(&self, e_r: [T; 2]) -> Self {
+        self.seen(|x, y| seen(e_r, x, y))
+    }
+}
+
+impl<T: Number> SeenAxis<T> for Upright {
+    #[inline(always)]
+    fn along(&self, _: [T; 2]) -> Self {
+        *self
+    }
+}
+
+impl<T: Number> SeenAxis<T> for Concentric {
+    #[inline(always)]
+    fn along(&self, _: [T; 2]) -> Self {
+        *self
+    }
+}
+
 impl<T: Number> Ball<T> {
-    /// In direction `e_r`, going round with `omega` (rad/s), between these rings, the inner one first; `radius` is
-    /// R_o − r (m).
+    /// u' and v' (m/s) of a ball in direction `e_r` with the velocities w and w_z as the outer ring moves.
+    #[inline(always)]
+    pub(in crate::dynamics) fn rates(e_r: [T; 2], [w, w_z]: [T; 2], outer: &RingInSpace<T>) -> [T; 2] {
+        [w - seen(e_r, outer.velocity[0], outer.velocity[1])[0], w_z - outer.velocity[2]]
+    }
+}
+
+impl<T: Number, I: SeenAxis<T>, O: SeenAxis<T>> Ball<T, I, O> {
+    /// At u and v, which change at these rates, in direction `e_r`, going round with `omega` (rad/s), between these
+    /// rings, the inner one first; `radius` is R_o − r (m).
     #[inline(always)]
     pub(in crate::dynamics) fn new(
-        grooves: &[Groove; 2],
-        radius: T,
-        e_r: [T; 2],
-        omega: T,
-        [u, v, w, w_z]: BallState<T>,
-        [inner, outer]: &[RingInSpace<T>; 2],
-    ) -> Self {
-        let outer_rate = seen(e_r, outer.velocity[0], outer.velocity[1]);
-        let rates = [w - outer_rate[0], w_z - outer.velocity[2]];
-        Self::moving(grooves, radius, e_r, omega, ([u, v], rates), [inner, outer])
-    }
-
-    /// As [`new`](Self::new), with u' and v' in place of w and w_z.
-    #[inline(always)]
-    pub(in crate::dynamics) fn moving(
-        grooves: &[Groove; 2],
         radius: T,
         e_r: [T; 2],
         omega: T,
         ([u, v], rates): ([T; 2], [T; 2]),
         [inner, outer]: [&RingInSpace<T>; 2],
+        axes: (&I, &O),
     ) -> Self {
         let rho = radius + u;
         let between = |k: usize| outer.position[k] - inner.position[k];
@@ -99,20 +136,16 @@ impl<T: Number> Ball<T> {
         let drifting = seen(e_r, drift(0), drift(1));
         let q_inner = [rho + offset[0], offset[1], v + between(2)];
         let rate_inner = [rate[0] + drifting[0], rate[1] + drifting[1], rate[2] + drift(2)];
-        let tilted = |ring: &RingInSpace<T>| {
-            let [x, v] = [ring.position, ring.velocity].map(|of| seen(e_r, of[3], of[4]));
-            Axis::tilted(x, v)
-        };
         Self {
             e_r,
             omega,
             rho,
             rates,
             around: seen(e_r, outer.velocity[0], outer.velocity[1])[1],
-            places: [
-                Place::of(&grooves[0], q_inner, rate_inner, &tilted(inner)),
-                Place::of(&grooves[1], q, rate, &tilted(outer)),
-            ],
+            seen: (
+                Seen { q: q_inner, rate: rate_inner, axis: axes.0.along(e_r) },
+                Seen { q, rate, axis: axes.1.along(e_r) },
+            ),
         }
     }
 
@@ -138,9 +171,10 @@ impl<T: Number> Ball<T> {
 }
 
 impl<T: Number> Place<T> {
+    /// Of a ball seen from the groove's ring.
     #[inline(always)]
-    fn of(groove: &Groove, q: Spatial<T>, rate: Spatial<T>, axis: &Axis<T>) -> Self {
-        Self { q, velocity: GrooveContact::velocity(q, rate, axis), contact: GrooveContact::of(groove, q, axis) }
+    pub(in crate::dynamics) fn of(groove: &Groove, Seen { q, rate, axis }: &Seen<T, impl RingAxis<T>>) -> Self {
+        Self { q: *q, velocity: axis.velocity(*q, *rate), contact: GrooveContact::of(groove, *q, axis) }
     }
 
     /// Rate at which the ball closes in on the smooth groove (m/s).
@@ -157,11 +191,18 @@ impl<T: Number> Place<T> {
         OnBall { force: across, moment: cross(across, point) }
     }
 
-    /// What a contact exerts with these forces along the normal and around the ring (N), its magnitude damped across
-    /// the groove.
+    /// What a contact exerts with this `force` along the normal (N), its magnitude damped across the groove.
     #[inline(always)]
-    pub(in crate::dynamics) fn exerts(&self, forces: [T; 2], magnitude: T, damping: T::Plain) -> OnBall<T> {
-        let force = self.contact.force(forces, magnitude, damping, self.velocity);
+    pub(in crate::dynamics) fn presses(&self, force: T, magnitude: T, damping: T::Plain) -> OnBall<T> {
+        let force = self.contact.force(force, magnitude, damping, self.velocity);
+        OnBall { force, moment: cross(force, self.q) }
+    }
+
+    /// The same of a contact that exerts forces along the normal and around the ring (N).
+    #[inline(always)]
+    pub(in crate::dynamics) fn exerts(&self, [force, around]: [T; 2], magnitude: T, damping: T::Plain) -> OnBall<T> {
+        let pressed = self.contact.force(force, magnitude, damping, self.velocity);
+        let force = plus(pressed, times(self.contact.around, around));
         OnBall { force, moment: cross(force, self.q) }
     }
 }

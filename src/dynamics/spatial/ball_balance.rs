@@ -15,7 +15,10 @@
 //! df/dx = f_x − f_b R_b⁻¹ R_x          b = (u, v)
 //! ```
 
+use super::ball::Ball;
+use super::ball_chained::STANDING;
 use super::ball_contacts::{BallForces, BallMotion};
+use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{COORDINATES, Frames, Model, RINGS, RingInSpace, Space, Turn};
 use crate::numerics::number::{Dual, Scalar};
@@ -53,8 +56,6 @@ pub(in crate::dynamics) struct BallTangent<T: Scalar = f64> {
 
 /// A number with derivatives by u and v.
 type ByBall = Dual<f64, 2>;
-/// A number with derivatives by u, v and both rings' coordinates.
-type ByAll<T> = Dual<T, { 2 + RINGS }>;
 
 impl<T: Scalar> BallMotion<T> {
     /// The same as dual numbers that do not change.
@@ -98,13 +99,18 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> ([T; 2], BallForces<T>) {
         let none = T::from(0.0);
-        let ball = at.ball_moving(self, space, place, [none; 2]);
+        let ball = at.ball_moving(self, place, [none; 2]);
         let mut found = self.ball_forces(space, cells, at, &ball, shortcuts);
         self.add_couple(space, omega, &mut found);
-        let ([f_r, _, f_z], mass) = (found.force(), T::Plain::from(self.element_mass));
+        (self.left_on_ball(space, &ball, omega, found.force()), found)
+    }
+
+    /// R_r and R_z (N) of a ball on which the contacts exert these forces along e_r, e_t and z.
+    fn left_on_ball<T: Scalar>(&self, space: &Space, ball: &Ball<T>, omega: T, [f_r, _, f_z]: Spatial<T>) -> [T; 2] {
+        let mass = T::Plain::from(self.element_mass);
         let [g_x, g_y, g_z] = [self.gravity.x, self.gravity.y, space.gravity].map(T::Plain::from);
-        let body = at.e_r[0] * g_x + at.e_r[1] * g_y + ball.rho * omega * omega;
-        ([f_r + body * mass, f_z + T::from(1.0) * g_z * mass], found)
+        let body = ball.e_r[0] * g_x + ball.e_r[1] * g_y + ball.rho * omega * omega;
+        [f_r + body * mass, f_z + T::from(1.0) * g_z * mass]
     }
 
     /// Ball `at` in balance, looked for from `guess` on; it feels the centrifugal force of `omega` (rad/s).
@@ -178,25 +184,47 @@ impl Model {
         omega: T,
         shortcuts: &mut Shortcuts,
     ) -> BallTangent<T> {
-        let mut seeded: BallMotion<ByAll<T>> = at.lifted();
-        for (ring, of) in seeded.rings.iter_mut().enumerate() {
-            for (k, x) in of.position.iter_mut().enumerate() {
-                *x = ByAll::variable(x.value, 2 + COORDINATES * ring + k);
-            }
+        self.ball_tangent_by::<T, { 2 + RINGS }>(space, cells, place, at, omega, shortcuts)
+    }
+
+    /// The same by the first coordinates of the rings alone, two fewer than `K`.
+    pub(in crate::dynamics) fn ball_tangent_by<T: Scalar, const K: usize>(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        place: [T; 2],
+        at: &BallMotion<T>,
+        omega: T,
+        shortcuts: &mut Shortcuts,
+    ) -> BallTangent<T> {
+        let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
+        let coordinates = seeded.rings.iter_mut().flat_map(|ring| &mut ring.position);
+        for (k, x) in coordinates.enumerate().take(K - 2) {
+            *x = Dual::variable(x.value, 2 + k);
         }
-        let place = [0, 1].map(|k: usize| ByAll::variable(place[k], k));
-        let (residual, found) = self.ball_residual(space, cells, &seeded, place, ByAll::constant(omega), shortcuts);
-        let rings = found.on_rings();
+        let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
+        let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
+        let (residual, rings) = if space.couple_shares == [0.0; 2] {
+            let ball = seeded.ball_moving(self, seeds, [none; 2]);
+            let standing = at.lifted::<STANDING>();
+            let [inner, outer] = self.chained_on_ball(space, cells, (&standing, none), &ball, shortcuts);
+            let force = plus(inner.force, outer.force);
+            (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
+        } else {
+            let (residual, found) = self.ball_residual(space, cells, &seeded, seeds, speed, shortcuts);
+            (residual, found.on_rings())
+        };
+        let rings = rings.as_flattened();
         let mut tangent = BallTangent {
             by_position: [[T::from(0.0); RINGS]; RINGS],
             ball: [[T::from(0.0); RINGS]; 2],
-            by_ball: std::array::from_fn(|i| [0, 1].map(|k: usize| rings.as_flattened()[i].by[k])),
-            residual_by_ball: residual.map(|of| [of.by[0], of.by[1]]),
+            by_ball: std::array::from_fn(|i| [rings[i].by[0], rings[i].by[1]]),
+            residual_by_ball: [[residual[0].by[0], residual[0].by[1]], [residual[1].by[0], residual[1].by[1]]],
         };
-        for i in 0..RINGS {
-            let [u, v] = tangent.answer(residual.map(|of| of.by[2 + i]));
+        for i in 0..K - 2 {
+            let [u, v] = tangent.answer([residual[0].by[2 + i], residual[1].by[2 + i]]);
             (tangent.ball[0][i], tangent.ball[1][i]) = (u, v);
-            for (row, force) in tangent.by_position.iter_mut().zip(rings.as_flattened()) {
+            for (row, force) in tangent.by_position.iter_mut().zip(rings) {
                 row[i] = force.by[2 + i] + force.by[0] * u + force.by[1] * v;
             }
         }

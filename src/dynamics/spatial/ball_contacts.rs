@@ -1,6 +1,7 @@
 //! The contacts of one ball with both grooves, near defects or not, in single numbers with any derivatives.
 
-use super::ball::{Ball, BallState, OnBall};
+use super::ball::{Ball, BallState, OnBall, Place, Seen, axis_of};
+use crate::contact::groove::Axis;
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Meeting, Shortcuts};
@@ -25,6 +26,8 @@ pub(in crate::dynamics) struct BallMotion<T: Scalar = f64> {
 /// A contact of a ball.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct BallContact<T: Scalar = f64> {
+    /// Where it meets the groove.
+    pub(in crate::dynamics) place: Place<T>,
     pub(in crate::dynamics) on_ball: OnBall<T>,
     /// Equivalent approach (m) and its rate (m/s).
     pub(in crate::dynamics) approach: T,
@@ -64,17 +67,28 @@ impl<T: Scalar> BallMotion<T> {
     /// The ball at u, v, w and w_z.
     // A function for each kind of number, once: with derivatives it is long.
     #[inline(never)]
-    pub(in crate::dynamics) fn ball(&self, model: &Model, space: &Space, state: BallState<T>) -> Ball<T> {
-        let radius = T::from(model.outer_centre_radius);
-        Ball::new(&space.grooves, radius, self.e_r, self.omega, state, &self.rings)
+    pub(in crate::dynamics) fn ball(&self, model: &Model, [u, v, w, w_z]: BallState<T>) -> Ball<T> {
+        let rates = Ball::rates(self.e_r, [w, w_z], &self.rings[1]);
+        self.ball_moving(model, [u, v], rates)
     }
 
     /// The ball at u and v, which change at these rates.
+    pub(in crate::dynamics) fn ball_moving(&self, model: &Model, at: [T; 2], rates: [T; 2]) -> Ball<T> {
+        let axes = [axis_of(&self.rings[0]), axis_of(&self.rings[1])];
+        self.ball_between(model, at, rates, &axes)
+    }
+
+    /// The same between rings of these axes.
     #[inline(never)]
-    pub(in crate::dynamics) fn ball_moving(&self, model: &Model, space: &Space, at: [T; 2], rates: [T; 2]) -> Ball<T> {
-        let radius = T::from(model.outer_centre_radius);
-        let [inner, outer] = &self.rings;
-        Ball::moving(&space.grooves, radius, self.e_r, self.omega, (at, rates), [inner, outer])
+    pub(in crate::dynamics) fn ball_between(
+        &self,
+        model: &Model,
+        at: [T; 2],
+        rates: [T; 2],
+        [inner, outer]: &[Axis<T>; 2],
+    ) -> Ball<T> {
+        let ([shaft, housing], radius) = (&self.rings, T::from(model.outer_centre_radius));
+        Ball::new(radius, self.e_r, self.omega, (at, rates), [shaft, housing], (inner, outer))
     }
 }
 
@@ -102,31 +116,35 @@ impl Model {
         ball: &Ball<T>,
         shortcuts: &mut Shortcuts,
     ) -> BallForces<T> {
-        let mut contact = |side: RacewaySide| {
-            let (law, cells) = (laws[side as usize], cells[side as usize]);
-            self.ball_contact((law, side), cells, at, ball, space.across_damping, shortcuts)
-        };
-        BallForces { ball: *ball, contacts: [contact(RacewaySide::Inner), contact(RacewaySide::Outer)] }
+        let [inner, outer] = [RacewaySide::Inner, RacewaySide::Outer];
+        let (seen_inside, seen_outside) = &ball.seen;
+        let contacts = [
+            self.ball_contact((laws[0], inner), space, cells[0], at, seen_inside, shortcuts),
+            self.ball_contact((laws[1], outer), space, cells[1], at, seen_outside, shortcuts),
+        ];
+        BallForces { ball: *ball, contacts }
     }
 
+    /// One contact of a ball, in these cells.
     #[inline(never)]
-    fn ball_contact<T: Scalar>(
+    pub(super) fn ball_contact<T: Scalar>(
         &self,
         (law, side): (&CompliantContact, RacewaySide),
+        space: &Space,
         cells: [u32; 2],
         at: &BallMotion<T>,
-        ball: &Ball<T>,
-        across_damping: f64,
+        seen: &Seen<T>,
         shortcuts: &mut Shortcuts,
     ) -> BallContact<T> {
-        let place = &ball.places[side as usize];
-        let (contact, closing, damping) = (&place.contact, place.closing(), T::Plain::from(across_damping));
+        let place = Place::of(&space.grooves[side as usize], seen);
+        let (contact, closing) = (&place.contact, place.closing());
+        let damping = T::Plain::from(space.across_damping);
         if cells == [SMOOTH; 2] {
             let force = law.law.force(contact.approach, closing);
-            let on_ball = place.exerts([force, T::from(0.0)], force, damping);
-            return BallContact { on_ball, approach: contact.approach, rate: closing, magnitude: force, frame: None };
+            let (on_ball, approach) = (place.presses(force, force, damping), contact.approach);
+            return BallContact { place, on_ball, approach, rate: closing, magnitude: force, frame: None };
         }
-        let meeting = self.ball_meeting(side, cells, at, ball);
+        let meeting = self.ball_meeting(side, cells, at, &place);
         let turning = match side {
             RacewaySide::Inner => contact.turning(place.velocity),
             RacewaySide::Outer => at.omega,
@@ -135,7 +153,7 @@ impl Model {
         let found = near.force(law, None, [closing, turning], &at.frames);
         let on_ball = place.exerts(found.force, found.magnitude, damping);
         let [approach, rate] = found.part;
-        BallContact { on_ball, approach, rate, magnitude: found.magnitude, frame: Some(near.frame) }
+        BallContact { place, on_ball, approach, rate, magnitude: found.magnitude, frame: Some(near.frame) }
     }
 
     /// Where a ball meets a defect: outside in its own direction, inside in that from the inner ring's axis.
@@ -144,9 +162,9 @@ impl Model {
         side: RacewaySide,
         cells: [u32; 2],
         at: &BallMotion<T>,
-        ball: &Ball<T>,
+        place: &Place<T>,
     ) -> Meeting<T> {
-        let contact = &ball.places[side as usize].contact;
+        let contact = &place.contact;
         let direction = match side {
             RacewaySide::Inner => at.angle + T::angle_of([contact.outwards[0], contact.outwards[1]]),
             RacewaySide::Outer => at.angle,

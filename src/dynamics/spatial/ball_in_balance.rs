@@ -139,7 +139,7 @@ impl Model {
         let (residual, elastic) = self.ball_residual(space, cells, &moving, seeded(place), omega, shortcuts);
         let matrix = residual.map(|of| [of.by[0], of.by[1]]);
         let rates = solved(matrix, residual.map(|of| of.by[2])).map(|rate| -rate);
-        let ball = at.ball_moving(self, space, place, rates);
+        let ball = at.ball_moving(self, place, rates);
         let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
         let laws = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
         let mut damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
@@ -176,10 +176,11 @@ impl Model {
                 force: part(of.on_ball.force, change[side][0]),
                 moment: part(of.on_ball.moment, change[side][1]),
             };
-            let contact = &ball.places[side].contact;
+            let place = damped.contacts[side].place;
+            let contact = &place.contact;
             let [along, around] = [dot(on_ball.force, contact.normal), dot(on_ball.force, contact.around)];
             let magnitude = (along * along + around * around).sqrt();
-            BallContact { on_ball, approach: of.approach.value, rate: T::from(0.0), magnitude, frame: of.frame }
+            BallContact { place, on_ball, approach: of.approach.value, rate: T::from(0.0), magnitude, frame: of.frame }
         });
         BallInBalance { place, rates, forces: BallForces { ball, contacts } }
     }

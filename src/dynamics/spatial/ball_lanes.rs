@@ -1,39 +1,54 @@
 //! The contacts of several balls at a time on smooth grooves. A ball near a defect has stiffness 0 here.
 
-use super::ball::{Ball, OnBall, Place};
+use super::ball::{Ball, OnBall, Place, SeenAxis, axis_of};
+use crate::contact::groove::{Axis, Concentric, Upright};
 use crate::contact::law::{DampedLaw, Point};
 use crate::dynamics::contacts::Record;
 use crate::dynamics::contacts::radial;
 use crate::dynamics::parameters::{COORDINATES, ElementBlock, Model, RINGS, RingInSpace, Space, Stage};
-use crate::numerics::lanes::{Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Lanes, WIDEST, Wide, blocks, blocks_mut, sum_of};
 use crate::numerics::plane::Vector;
 
-/// Forces on the rings along their coordinates, by lanes.
-#[derive(Default)]
-struct RingSums {
-    lanes: [[f64; WIDEST]; RINGS],
-    /// Where the next group of four belongs.
-    upper: bool,
-}
+/// Forces on the rings along their coordinates, by lanes: eight sums each, whatever the registers, and in registers of
+/// their own kind as those of the plane.
+struct RingSums<S: Wide>([[Lanes<S>; 2]; RINGS]);
 
-impl RingSums {
+impl<S: Wide> RingSums<S> {
+    /// Adds forces of the balls of this part of a block.
     #[inline(always)]
-    fn add<S: Wide>(&mut self, forces: [[Lanes<S>; COORDINATES]; 2]) {
-        for (lanes, force) in self.lanes.iter_mut().zip(forces.as_flattened()) {
-            force.add_to(lanes, self.upper);
+    fn add(&mut self, part: usize, forces: [[Lanes<S>; COORDINATES]; 2]) {
+        let half = part % (WIDEST / S::F64_LANES);
+        for ring in 0..2 {
+            for k in 0..COORDINATES {
+                let lanes = &mut self.0[COORDINATES * ring + k][half];
+                *lanes = *lanes + forces[ring][k];
+            }
         }
-        self.upper = S::F64_LANES == QUAD && !self.upper;
+    }
+
+    #[inline(always)]
+    fn on_rings(&self) -> [f64; RINGS] {
+        let mut forces = [0.0; RINGS];
+        for k in 0..RINGS {
+            let mut lanes = [0.0; WIDEST];
+            for part in 0..WIDEST / S::F64_LANES {
+                self.0[k][part].put(&mut lanes, part);
+            }
+            forces[k] = sum_of(lanes);
+        }
+        forces
     }
 }
 
 /// What balls on smooth grooves are worked out with.
-struct Smooth<'a, S: Wide> {
+struct Smooth<'a, S: Wide, I, O> {
     model: &'a Model,
     space: &'a Space,
     simd: S,
     cage: Vector,
     speed: f64,
     rings: [RingInSpace<Lanes<S>>; 2],
+    axes: (I, O),
     /// Time (s) by which positions are still to be moved on along their rates.
     ahead: Option<f64>,
 }
@@ -49,16 +64,31 @@ impl Model {
         rings: &[RingInSpace; 2],
         stage: &Stage,
         derivative: &mut [f64],
+        kept: (&[ElementBlock], &mut Record),
+    ) -> [f64; RINGS] {
+        if space.tilts {
+            let axes = (axis_everywhere(simd, &axis_of(&rings[0])), axis_everywhere(simd, &axis_of(&rings[1])));
+            return self.balls_between::<S, RECORD, _, _>(simd, space, (rings, axes), stage, derivative, kept);
+        }
+        let axes = (Upright, Concentric);
+        self.balls_between::<S, RECORD, _, _>(simd, space, (rings, axes), stage, derivative, kept)
+    }
+
+    /// The same between rings of these axes.
+    #[inline(always)]
+    fn balls_between<S: Wide, const RECORD: bool, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>>(
+        &self,
+        simd: S,
+        space: &Space,
+        (rings, axes): (&[RingInSpace; 2], (I, O)),
+        stage: &Stage,
+        derivative: &mut [f64],
         (elements, contacts): (&[ElementBlock], &mut Record),
     ) -> [f64; RINGS] {
-        let all = |ring: &RingInSpace| RingInSpace {
-            position: ring.position.map(|x| Lanes::splat(simd, x)),
-            velocity: ring.velocity.map(|v| Lanes::splat(simd, v)),
-        };
         let (cage, speed) = (stage.cage.direction, stage.cage.speed);
-        let rings = [all(&rings[0]), all(&rings[1])];
-        let smooth = Smooth { model: self, space, simd, cage, speed, rings, ahead: stage.ahead };
-        let mut sums = RingSums::default();
+        let rings = [everywhere(simd, &rings[0]), everywhere(simd, &rings[1])];
+        let smooth = Smooth { model: self, space, simd, cage, speed, rings, axes, ahead: stage.ahead };
+        let mut sums = RingSums([[Lanes::splat(simd, 0.0); 2]; RINGS]);
         let (count, state, derivative) = (elements.len(), blocks(stage.state), blocks_mut(derivative));
         for (k, block) in elements.iter().enumerate() {
             for part in 0..WIDEST / S::F64_LANES {
@@ -67,21 +97,50 @@ impl Model {
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
                 // u, v, w and w_z, each in as many blocks as there are of elements.
-                let at = std::array::from_fn(|list| of(&state[list * count + k]));
-                let (rates, found) = smooth.balls(at, block, &of, &mut sums);
-                for (list, rate) in rates.into_iter().enumerate() {
-                    (rate * of(&block.present)).put(&mut derivative[list * count + k], part);
+                let at = [of(&state[k]), of(&state[count + k]), of(&state[2 * count + k]), of(&state[3 * count + k])];
+                let (rates, found) = smooth.balls(at, block, &of, (part, &mut sums));
+                for list in 0..rates.len() {
+                    (rates[list] * of(&block.present)).put(&mut derivative[list * count + k], part);
                 }
                 if RECORD {
                     found.keep(contacts, k, part, of(&block.present));
                 }
             }
         }
-        sums.lanes.map(sum_of)
+        sums.on_rings()
     }
 }
 
-impl<S: Wide> Smooth<'_, S> {
+/// A ring's coordinates in all lanes.
+#[inline(always)]
+fn everywhere<S: Wide>(simd: S, ring: &RingInSpace) -> RingInSpace<Lanes<S>> {
+    let none = Lanes::splat(simd, 0.0);
+    let mut all = RingInSpace { position: [none; COORDINATES], velocity: [none; COORDINATES] };
+    for k in 0..COORDINATES {
+        all.position[k] = Lanes::splat(simd, ring.position[k]);
+        all.velocity[k] = Lanes::splat(simd, ring.velocity[k]);
+    }
+    all
+}
+
+/// An axis in all lanes.
+#[inline(always)]
+fn axis_everywhere<S: Wide>(simd: S, axis: &Axis<f64>) -> Axis<Lanes<S>> {
+    let number = |number: f64| Lanes::splat(simd, number);
+    let ([a_x, a_y, a_z], [t_x, t_y, t_z]) = (axis.direction, axis.turning);
+    Axis { direction: [number(a_x), number(a_y), number(a_z)], turning: [number(t_x), number(t_y), number(t_z)] }
+}
+
+impl<S: Wide, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>> Smooth<'_, S, I, O> {
+    /// One contact of some balls.
+    #[inline(always)]
+    fn contact(&self, place: Place<Lanes<S>>, law: &DampedLaw<Lanes<S>>, stiffness: Lanes<S>) -> Contact<S> {
+        let (simd, closing) = (self.simd, place.closing());
+        let force = law.force(stiffness, place.contact.approach, closing);
+        let on_ball = place.presses(force, force, Lanes::splat(simd, self.space.across_damping));
+        Contact { place, on_ball, force, pushing: law.pushing(place.contact.approach, closing) }
+    }
+
     /// Of balls at u, v, w and w_z: how these change, and their contacts.
     #[inline(always)]
     fn balls(
@@ -89,39 +148,30 @@ impl<S: Wide> Smooth<'_, S> {
         [u, v, w, w_z]: [Lanes<S>; 4],
         block: &ElementBlock,
         of: &impl Fn(&[f64; WIDEST]) -> Lanes<S>,
-        sums: &mut RingSums,
+        (part, sums): (usize, &mut RingSums<S>),
     ) -> ([Lanes<S>; 4], Found<S>) {
         let (model, space, simd) = (self.model, self.space, self.simd);
         let number = |number: f64| Lanes::splat(simd, number);
         let e_r = radial(simd, self.cage, block, of);
         let (omega, radius) = (of(&block.pace) * number(self.speed), number(model.outer_centre_radius));
-        let ball = match self.ahead {
-            None => Ball::new(&space.grooves, radius, e_r, omega, [u, v, w, w_z], &self.rings),
-            Some(ahead) => {
-                // Rates do not depend on positions.
-                let [_, outer] = &self.rings;
-                let rate = w - (outer.velocity[0] * e_r[0] + outer.velocity[1] * e_r[1]);
-                let axial = w_z - outer.velocity[2];
-                let moved = [u + number(ahead) * rate, v + number(ahead) * axial];
-                let [inner, outer] = &self.rings;
-                Ball::moving(&space.grooves, radius, e_r, omega, (moved, [rate, axial]), [inner, outer])
-            }
+        let [inner, outer] = &self.rings;
+        let rates = Ball::<Lanes<S>>::rates(e_r, [w, w_z], outer);
+        // Rates do not depend on positions.
+        let at = match self.ahead {
+            None => [u, v],
+            Some(ahead) => [u + number(ahead) * rates[0], v + number(ahead) * rates[1]],
         };
+        let ball = Ball::new(radius, e_r, omega, (at, rates), [inner, outer], (&self.axes.0, &self.axes.1));
         let law = DampedLaw::new(model.inner.contact.law.damping, Point, number);
         let stiffness = [of(&block.inner), of(&block.outer)];
-        let one = |side: usize| {
-            let place = &ball.places[side];
-            let closing = place.closing();
-            let force = law.force(stiffness[side], place.contact.approach, closing);
-            let on_ball = place.exerts([force, number(0.0)], force, number(space.across_damping));
-            let pushing = law.pushing(place.contact.approach, closing);
-            Contact { place: *place, on_ball, force, pushing }
-        };
-        let contacts = [one(0), one(1)];
+        let contacts = [
+            self.contact(Place::of(&space.grooves[0], &ball.seen.0), &law, stiffness[0]),
+            self.contact(Place::of(&space.grooves[1], &ball.seen.1), &law, stiffness[1]),
+        ];
         let total = |i: usize| contacts[0].on_ball.force[i] + contacts[1].on_ball.force[i];
-        let gravity = [model.gravity.x, model.gravity.y, space.gravity].map(number);
+        let gravity = [number(model.gravity.x), number(model.gravity.y), number(space.gravity)];
         let [radial, axial] = ball.accelerations([total(0), total(2)], of(&block.per_mass), gravity);
-        sums.add([ball.on_ring(&contacts[0].on_ball), ball.on_ring(&contacts[1].on_ball)]);
+        sums.add(part, [ball.on_ring(&contacts[0].on_ball), ball.on_ring(&contacts[1].on_ball)]);
         ([ball.rates[0], ball.rates[1], radial, axial], Found { path_rate: ball.rates[0], around: total(1), contacts })
     }
 }
@@ -148,7 +198,7 @@ impl<S: Wide> Found<S> {
     #[inline(always)]
     fn keep(&self, record: &mut Record, block: usize, part: usize, present: Lanes<S>) {
         let [inner, outer] = &self.contacts;
-        let [[inner_e, inner_a], [outer_e, outer_a]] = [inner, outer].map(|of| of.place.contact.meridian);
+        let ([inner_e, inner_a], [outer_e, outer_a]) = (inner.place.contact.meridian, outer.place.contact.meridian);
         let [meridian_ie, meridian_ia, meridian_oe, meridian_oa] = &mut record.meridians;
         for (list, value) in [
             (&mut record.inner, inner.force),

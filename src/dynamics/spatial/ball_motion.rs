@@ -55,7 +55,7 @@ impl Model {
     #[cold]
     pub(super) fn note_unsolved(&self, cells: [[u32; 2]; 2], at: &BallMotion, found: &BallForces, forces: &mut Forces) {
         for side in [RacewaySide::Inner, RacewaySide::Outer] {
-            let meeting = self.ball_meeting(side, cells[side as usize], at, &found.ball);
+            let meeting = self.ball_meeting(side, cells[side as usize], at, &found.contacts[side as usize].place);
             if cells[side as usize] == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
                 continue;
             }
@@ -82,7 +82,7 @@ impl BallForces {
         (record.inner_pushing[j], record.outer_pushing[j]) = (pushing(0), pushing(1));
         record.path_rate[j] = self.ball.rates[0];
         for side in 0..2 {
-            let [along_e, along_a] = self.ball.places[side].contact.meridian;
+            let [along_e, along_a] = self.contacts[side].place.contact.meridian;
             (record.meridians[2 * side][j], record.meridians[2 * side + 1][j]) = (along_e, along_a);
         }
     }

@@ -9,7 +9,7 @@
 //! equation). A contact holds the share λ/2 of it by λ M_g/D across the groove, at the point where it touches. The
 //! outer ring stands.
 
-use super::ball::{Ball, OnBall};
+use super::ball::OnBall;
 use super::ball_contacts::BallForces;
 use crate::dynamics::parameters::{Model, Space};
 use crate::numerics::number::Scalar;
@@ -21,10 +21,10 @@ impl Model {
             return;
         }
         let diameter = 2.0 * self.element_radius;
-        let per_diameter = self.gyroscopic_couple(space, &found.ball, omega) * T::Plain::from(1.0 / diameter);
+        let per_diameter = self.gyroscopic_couple(space, found, omega) * T::Plain::from(1.0 / diameter);
         for side in 0..2 {
             let share = per_diameter * T::Plain::from(space.couple_shares[side]);
-            let held = found.ball.places[side].held(share, T::Plain::from(self.element_radius));
+            let held = found.contacts[side].place.held(share, T::Plain::from(self.element_radius));
             let OnBall { force, moment } = &mut found.contacts[side].on_ball;
             for i in 0..3 {
                 force[i] += held.force[i];
@@ -34,10 +34,10 @@ impl Model {
     }
 
     /// M_g (N m) of a ball that goes round with `omega` (rad/s).
-    fn gyroscopic_couple<T: Scalar>(&self, space: &Space, ball: &Ball<T>, omega: T) -> T {
+    fn gyroscopic_couple<T: Scalar>(&self, space: &Space, of: &BallForces<T>, omega: T) -> T {
         let (plain, r) = (T::Plain::from, self.element_radius);
         let gamma = plain(r / space.pitch_radius);
-        let [[cos_i, sin_i], [inwards, along]] = [0, 1].map(|side: usize| ball.places[side].contact.meridian);
+        let [[cos_i, sin_i], [inwards, along]] = [0, 1].map(|side: usize| of.contacts[side].place.contact.meridian);
         let (cos_o, sin_o) = (-inwards, -along);
         let one = T::from(1.0);
         let tan = sin_o / (cos_o + gamma);

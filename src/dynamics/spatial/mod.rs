@@ -6,6 +6,7 @@
 
 mod ball;
 mod ball_balance;
+mod ball_chained;
 mod ball_contacts;
 mod ball_in_balance;
 mod ball_lanes;
@@ -14,4 +15,6 @@ mod gyroscopic;
 mod right_hand_side;
 mod tangent;
 
+pub(in crate::dynamics) use ball::{Ball, axis_of};
+pub(in crate::dynamics) use ball_chained::MOVING;
 pub(in crate::dynamics) use ball_contacts::{BallForces, BallMotion};

@@ -57,7 +57,7 @@ impl Model {
             let (at, _) = self.ball_within(j, stage, rings, forces);
             let ahead = stage.ahead.unwrap_or(0.0);
             let moved = [state[j] + ahead * derivative[j], state[v + j] + ahead * derivative[v + j]];
-            let ball = at.ball(self, space, [moved[0], moved[1], state[w + j], state[w_z + j]]);
+            let ball = at.ball(self, [moved[0], moved[1], state[w + j], state[w_z + j]]);
             forces.defect_lookups += cells.iter().filter(|cells| **cells != [SMOOTH; 2]).count() as u64;
             let found = self.ball_forces(space, cells, &at, &ball, &mut forces.shortcuts);
             let [f_r, f_t, f_z] = found.force();

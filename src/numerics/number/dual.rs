@@ -4,7 +4,6 @@
 //! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant.
 
 use super::{Number, Pair};
-use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A value and its derivatives.
@@ -38,12 +37,35 @@ impl<N: Number, const K: usize> Dual<N, K> {
     /// A function of this with these value and slope at it.
     #[inline(always)]
     fn lifted(self, value: N, slope: N) -> Self {
-        Self { value, by: from_fn(|k| slope * self.by[k]) }
+        // Loops: an array's own functions are not resolved where there are many derivatives.
+        let mut by = self.by;
+        for k in 0..K {
+            by[k] = slope * by[k];
+        }
+        Self { value, by }
     }
 
     #[inline(always)]
     fn with(self, other: Self, value: N, by: impl Fn(N, N) -> N) -> Self {
-        Self { value, by: from_fn(|k| by(self.by[k], other.by[k])) }
+        let mut found = self.by;
+        for k in 0..K {
+            found[k] = by(found[k], other.by[k]);
+        }
+        Self { value, by: found }
+    }
+}
+
+impl<N: Number, const M: usize> Dual<N, M> {
+    /// The same where what this has its derivatives by are numbers with derivatives themselves.
+    #[inline(always)]
+    pub fn chained<const K: usize>(&self, of: &[Dual<N, K>]) -> Dual<N, K> {
+        let mut found = Dual::constant(self.value);
+        for (by, of) in self.by.iter().zip(of) {
+            for k in 0..K {
+                found.by[k] = found.by[k] + *by * of.by[k];
+            }
+        }
+        found
     }
 }
 
@@ -82,8 +104,11 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
 
     #[inline(always)]
     fn or_zero(self) -> Self {
-        let zero = self.value.all(0.0);
-        Self { value: self.value.or_zero(), by: from_fn(|k| zero.if_less(self.value, self.by[k], zero)) }
+        let (zero, mut by) = (self.value.all(0.0), self.by);
+        for k in 0..K {
+            by[k] = zero.if_less(self.value, by[k], zero);
+        }
+        Self { value: self.value.or_zero(), by }
     }
 
     #[inline(always)]
@@ -144,7 +169,11 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { value: -self.value, by: self.by.map(|by| -by) }
+        let mut by = self.by;
+        for k in 0..K {
+            by[k] = -by[k];
+        }
+        Self { value: -self.value, by }
     }
 }
 

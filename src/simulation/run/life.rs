@@ -140,6 +140,11 @@ impl Simulation {
         StepCounts { all: self.run.state.progress.steps, implicit: self.run.state.progress.implicit_steps }
     }
 
+    /// Whether a shoulder has cut the contact of an element so far.
+    pub fn has_truncated_contacts(&self) -> bool {
+        self.run.state.progress.truncated_contacts > 0
+    }
+
     /// The recorder, if the scene has one and the host has given it a folder.
     pub fn recorder(&self) -> Option<&Recorder> {
         self.run.recorder.as_ref().filter(|recorder| recorder.is_on())

@@ -2,17 +2,22 @@
 //!
 //! The cage stands still, so no centrifugal force acts on the elements. Loads, gravity on the elements, supports and
 //! all damping are the scene's. A ring that a host moves, or that is fixed, holds still at its origin; a held shaft
-//! with a load holds still where it carries that load.
+//! with a load holds still where it carries that load, which is worked out in the plane only.
+//!
+//! In space balls move along the axis too, and rings along it and about x and y. The rotor stands as well: nothing of
+//! its gyroscopic couple is in the modes.
 
 use super::defect_edge_angles;
 use super::defect_edge_angles::Edge;
-use crate::statics::{StaticError, in_the_plane};
+use crate::statics::StaticError;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{Cells, Cubic, Excitation, Model, Quadratic, WholeAngle};
+use brinell::dynamics::parameters::{
+    Beyond, COORDINATES, Cells, Cubic, Excitation, Layout, Model, Quadratic, WholeAngle,
+};
 use brinell::numerics::wrap;
-use brinell::scene::{Motion, Scene};
+use brinell::scene::{DegreesOfFreedom, Motion, Ring, Scene};
 use brinell::simulation::setup::{build_model, largest_force, stored_map};
 use brinell::surface::{Surface, with_roller_profile};
 use std::f64::consts::TAU;
@@ -25,6 +30,8 @@ pub struct Assembly {
     /// The same with a shaft that moves under its load, where a held shaft has one: says where it is held.
     seat: Option<Model>,
     loads: [[f64; 2]; 2],
+    /// Loads on both rings beyond the plane: along z (N), about x and y (N m).
+    beyond: [[f64; 3]; 2],
     /// Angles of cage, inner and outer ring at the start of the scene (rad).
     angles: [f64; 3],
     /// Of the first defect.
@@ -58,6 +65,7 @@ pub enum Hold {
 pub(super) struct Freedom {
     pub(crate) name: String,
     pub(crate) body: Body,
+    /// Mass (kg), or moment of inertia (kg m²) of a tilt.
     pub(crate) mass: f64,
     pub(crate) position: usize,
     pub(super) velocity: usize,
@@ -94,15 +102,18 @@ const CARRIES: f64 = 1e-15;
 const RESTS: f64 = 1e-3;
 
 /// The scene with another amount of load (N): all its loads in proportion, that on the shaft, or else that on the
-/// housing, becoming the amount. A scene without load gets it on the shaft, downwards, also where the shaft is held.
+/// housing, becoming the amount; moments follow, preloads stay. A scene without load gets it on the shaft, downwards,
+/// also where the shaft is held.
 pub fn loaded(scene: &Scene, amount: f64) -> Scene {
     let mut scene = scene.clone();
-    let length = |[x, y]: [f64; 2]| libm::hypot(x, y);
-    let present = [scene.shaft.load, scene.housing.load].map(length).into_iter().find(|&load| load > 0.0);
+    let length = |ring: &Ring| libm::hypot(libm::hypot(ring.load[0], ring.load[1]), ring.axial.load);
+    let present = [&scene.shaft, &scene.housing].map(length).into_iter().find(|&load| load > 0.0);
     match present {
         Some(present) => {
             for ring in [&mut scene.shaft, &mut scene.housing] {
-                ring.load = ring.load.map(|load| load * (amount / present));
+                let by = |load: f64| load * (amount / present);
+                (ring.load, ring.axial.load) = (ring.load.map(by), by(ring.axial.load));
+                ring.tilt.load_moment = ring.tilt.load_moment.map(by);
             }
         }
         None => scene.shaft.load = [0.0, -amount],
@@ -122,10 +133,13 @@ impl Assembly {
         profiles: impl IntoIterator<Item = &'p str>,
         map: Option<&[u8]>,
     ) -> Result<Self, StaticError> {
-        in_the_plane(scene)?;
+        let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
         let profiles: Vec<&str> = profiles.into_iter().collect();
         let scene = &with_roller_profile(scene, profiles.iter().copied())?;
         let held = scene.shaft.motion != Motion::Internal;
+        if held && in_space {
+            return Err(StaticError::HeldInSpace { given: scene.bearing.degrees_of_freedom.count() });
+        }
         let mut still = scene.clone();
         if held {
             still.shaft.load = [0.0; 2];
@@ -155,6 +169,10 @@ impl Assembly {
             model,
             seat: seat.transpose()?,
             loads: [scene.shaft.load, scene.housing.load],
+            beyond: [&scene.shaft, &scene.housing].map(|ring| {
+                let [m_x, m_y] = ring.tilt.load_moment;
+                [ring.axial.load, m_x, m_y]
+            }),
             angles: [scene.cage.initial_angle, scene.shaft_initial_angle, scene.housing_initial_angle],
             defect: of_first,
             edges: Edge::all(scene, &surfaces),
@@ -201,29 +219,39 @@ impl Assembly {
         let layout = &model.layout;
         // An element in balance at every instant moves as the rings do.
         let elements = if model.elements_in_balance() { 0 } else { model.element_count };
-        let mut freedoms: Vec<Freedom> = (0..elements)
-            .map(|j| Freedom {
-                name: format!("element[{}].path", j + 1),
+        let of_elements = |name: &'static str, position: usize, velocity: usize| {
+            (0..elements).map(move |j| Freedom {
+                name: format!("element[{}].{name}", j + 1),
                 body: Body::Element(j),
                 mass: model.element_mass,
-                position: j,
-                velocity: layout.radial_velocity + j,
+                position: position + j,
+                velocity: velocity + j,
             })
-            .collect();
+        };
+        let mut freedoms: Vec<Freedom> = of_elements("path", 0, layout.radial_velocity).collect();
+        if let Some([v, w_z]) = layout.axial() {
+            freedoms.extend(of_elements("axial", v, w_z));
+        }
         let rings = [
             ("shaft", Body::Shaft, &model.shaft, layout.shaft),
             ("housing", Body::Housing, &model.housing, layout.housing),
         ];
-        for (name, body, ring, start) in rings {
+        for (i, (name, body, ring, start)) in rings.into_iter().enumerate() {
             let Some(start) = start else { continue };
-            for (axis, letter) in ["x", "y"].into_iter().enumerate() {
-                let (position, velocity) = (start + axis, start + 2 + axis);
-                freedoms.push(Freedom { name: format!("{name}.{letter}"), body, mass: ring.mass, position, velocity });
+            for (k, coordinate) in ["x", "y", "z", "tilt.x", "tilt.y"].into_iter().enumerate() {
+                let mass = match &model.space {
+                    None if k < 2 => Some(ring.mass),
+                    None => None,
+                    Some(space) => space.inertia(COORDINATES * i + k),
+                };
+                let (position, velocity) = (start + Layout::POSITIONS[k], start + Layout::VELOCITIES[k]);
+                let name = format!("{name}.{coordinate}");
+                freedoms.extend(mass.map(|mass| Freedom { name, body, mass, position, velocity }));
             }
         }
         let sensors = &model.supports.sensors;
         for (k, (sensor, start)) in sensors.iter().zip(layout.sensor_indices()).enumerate() {
-            let name = match (sensors.len(), sensor.direction.x == 0.0) {
+            let name = match (sensors.len(), sensor.direction.x == 0.0 && model.space.is_none()) {
                 (1, true) => "sensor.y".to_owned(),
                 (1, false) => "sensor".to_owned(),
                 _ => format!("sensor[{}]", k + 1),
@@ -248,7 +276,9 @@ impl Assembly {
         let count = model.element_count;
         let [shaft_load, housing_load] = self.loads.map(|load| load.map(Quadratic::constant));
         let frames = [self.angles[1], self.angles[2], model.spin_with_cage(cage_angle - self.angles[0])];
-        let mut excitation = Excitation { shaft_load, housing_load, ..Excitation::standing(cage_angle, frames) };
+        let beyond = self.beyond.map(|load| Beyond { load: load.map(Quadratic::constant), ..Beyond::default() });
+        let mut excitation =
+            Excitation { shaft_load, housing_load, beyond, ..Excitation::standing(cage_angle, frames) };
         if let Some(seat) = &self.seat {
             let (_, state) = self.equilibrium(seat, &excitation)?;
             let position = seat.shaft_state(&excitation, 0.0, &state).position;

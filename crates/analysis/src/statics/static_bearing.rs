@@ -50,11 +50,20 @@ pub enum StaticError {
         cause: EquilibriumError,
     },
     /// Rings that move along the axis or tilt.
-    #[error(
-        "bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2; the tangent stiffness of \
-         rings in space is among the outputs of a run (shaft.stiffness.zz and its like)"
-    )]
+    #[error("bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2")]
     InSpace {
+        /// Degrees of freedom.
+        given: usize,
+    },
+    /// A study in space of rings in their plane.
+    #[error("bearing.degrees_of_freedom = 2: this study is of rings in space, 3 or 5")]
+    InThePlane,
+    /// A shaft in space that no force moves.
+    #[error(
+        "bearing.degrees_of_freedom = {given} with a shaft that is fixed or that a host moves: nothing says where along \
+         the axis it stands; modes in space are of a shaft that moves by itself, shaft.motion = \"internal\""
+    )]
+    HeldInSpace {
         /// Degrees of freedom.
         given: usize,
     },
@@ -76,7 +85,7 @@ pub enum StaticError {
 }
 
 /// Refuses rings that move along the axis or tilt.
-pub(crate) fn in_the_plane(scene: &Scene) -> Result<(), StaticError> {
+fn in_the_plane(scene: &Scene) -> Result<(), StaticError> {
     match scene.bearing.degrees_of_freedom {
         DegreesOfFreedom::Two => Ok(()),
         more => Err(StaticError::InSpace { given: more.count() }),

@@ -48,6 +48,8 @@ pub(crate) struct Instance {
     recording: Option<Recording>,
     /// Longest step that has been looked at (s).
     longest: f64,
+    /// Whether it has warned of contacts that a shoulder cuts.
+    warned_of_shoulders: bool,
     /// Strings handed out last, which stay valid until strings are read again.
     texts: Vec<CString>,
 }
@@ -70,6 +72,7 @@ impl Instance {
             rows: Vec::new(),
             recording: None,
             longest: 0.0,
+            warned_of_shoulders: false,
             texts: Vec::new(),
         }
     }
@@ -155,7 +158,23 @@ impl Instance {
         }
         self.clock = Some(reached);
         self.last_step = Status::Ok;
+        if !self.warned_of_shoulders && self.simulation.has_truncated_contacts() {
+            self.warn_of_shoulders(reached.time);
+        }
         Ok(())
+    }
+
+    /// Says once that forces are no longer those of whole ellipses.
+    #[cold]
+    fn warn_of_shoulders(&mut self, time: f64) {
+        self.warned_of_shoulders = true;
+        self.logger.line(Status::Warning, || {
+            format!(
+                "until {time:?} s a raceway's shoulder has cut the contact of an element \
+                 (solver.truncated_contacts, element[j].shoulder): forces stay those of whole ellipses, up to 2 % too \
+                 large with an eighth of the ellipse cut off and 9 % with a quarter."
+            )
+        });
     }
 
     /// Lets a tolerance of the host's tighten that of the time integration, and never loosen it: hosts hand in their

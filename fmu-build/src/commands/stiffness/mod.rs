@@ -1,12 +1,14 @@
 //! The command `stiffness`: static stiffness, load distribution and critical load of a scene, as CSV, figure and
 //! summary.
 
+mod in_space;
+
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use brinell::scene::{Bearing, ContactLaw, DefectOn, Scene};
+use brinell::scene::{Bearing, ContactLaw, DefectOn, DegreesOfFreedom, Scene};
 use brinell_analysis::statics::{
     Balance, Bottom, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
 };
@@ -55,6 +57,9 @@ const VARIATIONS: usize = 21;
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
 pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
     options.check()?;
+    if model.scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
+        return in_space::command(project, model, options, folder);
+    }
     let map = contact_map::of(&model.scene, model.profile_texts(), project)?;
     let bearing = loaded(StaticBearing::with_map(&model.scene, model.profile_texts(), map.as_deref())?, options.load)?;
     let healthy =

@@ -1,0 +1,71 @@
+//! Shoulders, and pairs on one rigid shaft.
+
+use super::*;
+use std::f64::consts::PI;
+
+#[test]
+fn shoulders_are_as_far_from_the_ellipses_ends_as_printed() {
+    let of = |thrust: f64| {
+        let height = Some(0.2 * 7.94e-3);
+        let bearing = Bearing { shoulder_inner: height, shoulder_outer: height, ..b6205(10e-6) };
+        let scene = free_shaft(bearing, DegreesOfFreedom::Three).gravity([0.0; 2]).axial_load(thrust);
+        started(scene.build().unwrap())
+    };
+    let names = ["element[1].shoulder.inner", "element[1].shoulder.outer"];
+    for (thrust, expected) in [(1000.0, ["19.128144", "19.521648"]), (3000.0, ["10.721279", "11.258685"])] {
+        printed(&values(&mut of(thrust), names), PI / 180.0, &expected);
+    }
+    // The inner ellipse just meets its shoulder.
+    let mut meeting = of(8462.012);
+    let [margin, angle] = values(&mut meeting, ["element[1].shoulder.inner", "element[1].contact_angle.inner"]);
+    printed(&[angle], PI / 180.0, &["29.281908"]);
+    // The printed force to its last digit: 1e-3 N of 8 kN are 1e-8 rad.
+    assert!(margin.abs() < 1e-8, "{margin:e}");
+}
+
+/// Force along z (N) and moment about x (N m) of one bearing on its ring, which a host holds.
+fn held(way: f64, [y, z, tilt]: [f64; 3]) -> [f64; 3] {
+    let mut bearing = Bearing { hertz_inner: Some(2.82515273e10), hertz_outer: Some(2.49580607e10), ..angular(25.0) };
+    bearing.set_contact_angle(way * 25f64.to_radians());
+    let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).gravity([0.0; 2]);
+    let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).cage(0.0, -0.5 * PI);
+    let mut found = Simulation::new(scene.build().unwrap(), None).unwrap();
+    for (name, value) in [("shaft.y", y), ("shaft.z", z), ("shaft.tilt.x", tilt)] {
+        found.set(name, value).unwrap();
+    }
+    found.initialize(0.0).unwrap();
+    values(&mut found, ["shaft.force.y", "shaft.force.z", "shaft.moment.x"])
+}
+
+#[test]
+fn a_preloaded_pair_carries_and_opens_as_printed() {
+    const OFFSET: f64 = 5e-6;
+    // Back to back the left bearing, with a positive angle, is closed by +5 µm, the right one by −5 µm.
+    let external = |z: f64| -(held(1.0, [0.0, OFFSET + z, 0.0])[1] + held(-1.0, [0.0, z - OFFSET, 0.0])[1]);
+    printed(&[-held(1.0, [0.0, OFFSET, 0.0])[1]], 1.0, &["153.930271"]);
+    printed(&[external(1e-6), external(3e-6)], 1.0, &["95.417781", "283.431470"]);
+    // Where the right one has no force left.
+    let opened = held(-1.0, [0.0, 0.0, 0.0])[1];
+    assert!(opened.abs() < 1e-9, "{opened:e}");
+    printed(&[external(OFFSET)], 1.0, &["457.88740"]);
+    // Central differences of two steps, whose largest errors cancel.
+    let over = |h: f64| (external(h) - external(-h)) / (2.0 * h);
+    printed(&[(4.0 * over(1e-8) - over(2e-8)) / 3.0], 1e7, &["9.55242"]);
+}
+
+#[test]
+fn a_pair_resists_tilt_as_printed_back_to_back_and_face_to_face() {
+    let tilt = 1e-4;
+    // Centres 50 mm apart: at b the ring goes to y = −b φ, and its force has the lever b.
+    let moment = |way: f64, offset: f64| {
+        [(-25e-3, way, offset), (25e-3, -way, -offset)]
+            .map(|(b, way, z)| {
+                let [y, _, about_x] = held(way, [-b * tilt, z, tilt]);
+                about_x - b * y
+            })
+            .iter()
+            .sum::<f64>()
+    };
+    printed(&[-moment(1.0, 5e-6)], 1.0, &["21.394603"]);
+    printed(&[-moment(-1.0, -5e-6)], 1.0, &["4.968967"]);
+}
