@@ -73,7 +73,7 @@ fn the_notebook_of_a_rotor_carries_any_rotor_in_two_bearings() {
     // The spalled end goes down with each passage, the healthy one hardly: half of a line's width is 1.7 Hz, and lines
     // are 3.3 Hz apart.
     let check = "assert abs(strongest - ball_pass) < 3.4, (strongest, ball_pass)\n\
-                 assert len(plt.get_fignums()) == 1 and run.motion.shape == (8001, 36)\n\
+                 assert len(plt.get_fignums()) == 1 and run.yout.shape == (8001, 54)\n\
                  assert np.ptp(run.at(8)[late, 1]) > 2 * np.ptp(run.at(0)[late, 1])\n";
     let said = run_in(python, "rotor.ipynb", check);
     assert!(said.contains("ball-pass frequency: 89.8 Hz"), "{said}");
