@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """A ROSS rotor with one bearing computed by an FMU, healthy and spalled: motion and order spectra.
 
-    python examples/rotor_ross.py [--host exact|ross] [--passes 2] [--step 5e-5] [--stop 4] [-o target/examples]
+    python examples/rotor_ross.py [--passes 2] [--step 5e-5] [--stop 4] [-o target/examples]
 
 The rotor: a steel shaft of 25 mm, 0.6 m long, a disk of 4.4 kg in the middle with unbalance, a light damper beside
 it, a linear bearing on the left, and the ER16K under study on the right, pressed down with 300 N. The FMU moves the
-bearing's elements and its housing; ROSS, or we with ROSS's matrices, move the shaft: ross_bearings.py, which does so
-for any rotor and any number of bearings. examples/notebooks/rotor.ipynb has one of your own.
+bearing's elements and its housing, and `brinell.ross` with ROSS's matrices the shaft: any rotor, in any number of
+bearings. examples/notebooks/rotor.ipynb has one of your own.
 """
 
 import argparse
@@ -16,23 +16,23 @@ from pathlib import Path
 
 import numpy as np
 from bearing import SCENES, build, changed_scene
-from ross_bearings import Machine, ross, simulate, unbalance
+from brinell.ross import ross, simulate, unbalance
+
+LEFT, DAMPER, DISK, BEARING = 0, 5, 6, 12  # nodes
 
 
 def shown():
-    """The rotor described above, in 12 elements of 50 mm, with its disk at node 6 and the FMU's bearing at node 12."""
-    left, damper, disk, right = 0, 5, 6, 12
+    """The rotor described above, in 12 elements of 50 mm; the loads and forces on it by node."""
     # beta: damping over stiffness of the shaft, assumed; 8 % of critical at 5 kHz, 0.1 % at the first critical speed
     steel = ross.Material("steel", rho=7810, E=211e9, G_s=81.2e9)
-    elements = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.025, material=steel, beta=5e-6) for _ in range(right)]
-    disks = [ross.DiskElement.from_geometry(n=disk, material=steel, width=0.04, i_d=0.025, o_d=0.135)]
+    elements = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.025, material=steel, beta=5e-6) for _ in range(BEARING)]
+    disks = [ross.DiskElement.from_geometry(n=DISK, material=steel, width=0.04, i_d=0.025, o_d=0.135)]
     bearings = [
-        ross.BearingElement(n=left, kxx=5e7, cxx=100.0, kzz=1e6),
-        ross.BearingElement(n=damper, kxx=0.0, cxx=60.0),
+        ross.BearingElement(n=LEFT, kxx=5e7, cxx=100.0, kzz=1e6),
+        ross.BearingElement(n=DAMPER, kxx=0.0, cxx=60.0),
     ]
-    rotor = ross.Rotor(elements, disks, bearings)
     # 5e-4 kg m: a disk that should be balanced; grade G 36 at 50 Hz
-    return Machine(rotor, (right,), {right: (0.0, -300.0)}, {disk: unbalance(5e-4)})
+    return ross.Rotor(elements, disks, bearings), {BEARING: (0.0, -300.0)}, {DISK: unbalance(5e-4)}
 
 
 def fmus_in(folder):
@@ -50,11 +50,11 @@ def spectrum(signal, h, turns):
     return np.fft.rfftfreq(len(signal), h) / turns, amplitudes
 
 
-def summary(bearing, runs, passage, h, turns, settle):
+def summary(runs, passage, h, turns, settle):
     """Amplitudes of the shaft's position in the bearing [µm] at shaft speed, multiples of BPFO, and their sidebands."""
     found = {"bpfo_order": passage}
     for name, run in runs.items():
-        order, amplitude = spectrum(run.at(bearing)[run.time >= settle, 1] * 1e6, h, turns)
+        order, amplitude = spectrum(run.at(BEARING)[run.time >= settle, 1] * 1e6, h, turns)
         lines = [1.0, *(k * passage + side for k in (1, 2) for side in (-1, 0, 1))]
         near = max(0.06, order[1])
         found[f"position_um_{name}"] = {f"{x:.3f}": float(amplitude[np.abs(order - x) <= near].max()) for x in lines}
@@ -64,19 +64,19 @@ def summary(bearing, runs, passage, h, turns, settle):
     return found
 
 
-def draw(bearing, disk, runs, passage, h, turns, settle, stem):
+def draw(runs, passage, h, turns, settle, stem):
     from figures import BLACK, BLUE, ORANGE, curve, legend, plots, save
 
     figure, axes = plots(6, 15)
     whole, axes = dict(zip(("spalled", "healthy"), axes)), axes[2:]
     for name, colour in (("spalled", ORANGE), ("healthy", BLUE)):
-        t, shaft, middle = runs[name].time, runs[name].at(bearing)[:, 1] * 1e6, runs[name].at(disk)[:, 1] * 1e6
+        t, shaft, middle = runs[name].time, runs[name].at(BEARING)[:, 1] * 1e6, runs[name].at(DISK)[:, 1] * 1e6
         curve(whole[name], t, shaft, colour, name, turns)
         part = t >= max(t[-1] - 4 / turns, settle)
         axes[0].plot((t[part] - t[-1]) * turns, shaft[part], color=colour, label=name)
         axes[1].plot((t[part] - t[-1]) * turns, middle[part], color=colour, label=name)
         late = t >= settle
-        for axis, signal in ((axes[2], shaft[late]), (axes[3], runs[name].outputs[0]["housing.ay"][late])):
+        for axis, signal in ((axes[2], shaft[late]), (axes[3], runs[name].outputs[BEARING]["housing.ay"][late])):
             order, amplitude = spectrum(signal, h, turns)
             axis.semilogy(order[order < 11], amplitude[order < 11], color=colour, linewidth=0.8)
     for axis in axes[2:]:
@@ -106,31 +106,28 @@ def draw(bearing, disk, runs, passage, h, turns, settle, stem):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--host", choices=("exact", "ross"), default="exact")
-    parser.add_argument("--passes", type=int, default=2, help="of the host `exact`")
+    parser.add_argument("--passes", type=int, default=2, help="of each step")
     parser.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
-    parser.add_argument("--step", type=float, help="communication step [s]; default 5e-5, or 1e-5 with --host ross")
+    parser.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
     parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
-    machine = shown()
-    (bearing,), (disk,) = machine.nodes, machine.forces
-    speed, settle = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop)
-    h = options.step or {"exact": 5e-5, "ross": 1e-5}[options.host]
+    rotor, loads, forces = shown()
+    speed, settle, h = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop), options.step
     fmus = fmus_in(options.output)
-    stem = options.output / f"rotor_{options.host}"
+    stem = options.output / "rotor_ross"
     runs, took = {}, {}
     for name, fmu in zip(("healthy", "spalled"), fmus):
         begin = time.perf_counter()
         runs[name] = simulate(
-            machine.rotor, machine.nodes, [fmu], speed, options.stop, h, loads=machine.loads, forces=machine.forces,
-            seen=("housing.ay", "cage.speed"), passes=options.passes, host=options.host,
+            rotor, {BEARING: fmu}, speed, options.stop, h, loads=loads, forces=forces, passes=options.passes,
+            seen=("housing.ay", "cage.speed"),
         )  # fmt: skip
         took[name] = round(time.perf_counter() - begin, 2)
     # Of an element over a point on the outer ring, per shaft turn.
-    passage = 9 * runs["spalled"].outputs[0]["cage.speed"][0] / speed
-    draw(bearing, disk, runs, passage, h, options.speed, settle, stem)
-    found = summary(bearing, runs, passage, h, options.speed, settle)
+    passage = 9 * runs["spalled"].outputs[BEARING]["cage.speed"][0] / speed
+    draw(runs, passage, h, options.speed, settle, stem)
+    found = summary(runs, passage, h, options.speed, settle)
     print(json.dumps({**found, "seconds": took, "files": [f"{stem}.svg", f"{stem}.png"]}))
 
 

@@ -80,7 +80,7 @@ def one_step(bearings, masses, resist, loads, state, h, passes):
 
 def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
     """Runs the rotor. Gives time, positions, forces of both bearings, and the outputs in `seen` of the right one."""
-    start = {"shaft.speed": SPEED, "housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": tolerance}
+    start = {"shaft.speed": SPEED, "solver.tolerance": tolerance}
     bearings = [Bearing(fmu, name, start) for fmu, name in zip(fmus, ("left", "right"))]
     load = outer_load(0.0)
     # The unbalance starts with the rotor at rest: a jolt of less than a newton against 1000 N.

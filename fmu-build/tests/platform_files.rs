@@ -135,7 +135,7 @@ mod all_platforms {
         assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
         let file = common::folder("all-platforms").join("6205-epps.fmu");
         std::fs::write(&file, bytes).unwrap();
-        fmu_build::commands::check::command(&Project::find(), &file).unwrap();
+        fmu_build::commands::check::command(&Project::find(), &file, false).unwrap();
     }
 
     #[test]

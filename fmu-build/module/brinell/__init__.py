@@ -108,8 +108,8 @@ class Run(Mapping[str, Signal]):
         return frame
 
     def plot(self, names: str | Iterable[str] | None = None) -> Any:
-        """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names`` what
-        the sensors show, or the housing's acceleration."""
+        """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
+        what the sensors show, or the housing's acceleration."""
         from matplotlib import pyplot
 
         chosen = [names] if isinstance(names, str) else list(names or ())
@@ -175,7 +175,7 @@ def run(
     """Runs a scene without a host, its inputs at their start values, and gives all inputs and outputs.
 
     ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the scene's. ``columns`` are
-    the names wanted beside the time, in which ``*`` stands for any characters; ``speed_profile`` is a CSV file with
+    the names wanted beside the time, of the recording, too, in which ``*`` stands for any characters; ``speed_profile`` is a CSV file with
     time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the sensors.
     """
     given = {
@@ -238,11 +238,15 @@ def size(
     return report
 
 
-def new(name: str, output: PathLike = ".", *, bearing: str = "6205", defect: str | None = None) -> Path:
-    """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path. ``defect`` is a
-    spall as ``"inner:1.2mm"``."""
+def new(
+    name: str, output: PathLike = ".", *, bearing: str = "6205", defect: str | None = None, hosted: bool = False
+) -> Path:
+    """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path.
+
+    ``defect`` is a spall as ``"inner:1.2mm"``; with ``hosted`` an FMU's host moves the shaft.
+    """
     spall = [f"--defect={defect}"] if defect else []
-    _ask("new", name, f"--bearing={bearing}", *spall, "--output", os.fspath(output))
+    _ask("new", name, f"--bearing={bearing}", *spall, *["--hosted"] * hosted, "--output", os.fspath(output))
     return Path(output) / f"{name}.toml"
 
 
@@ -274,8 +278,8 @@ def modes(scene: PathLike, *, load: float | None = None) -> dict[str, Any]:
 
 
 def contact(scene: PathLike, *, on: str, angle: float, force: float) -> dict[str, Any]:
-    """Pressure of one ball on the raceway ``on`` as measured, ``angle`` [degrees] from the middle of its defect, under a
-    force [N], and the stresses below: what ``brinell contact`` prints."""
+    """Pressure of one ball on the raceway ``on`` as measured, ``angle`` [degrees] from the middle of its defect, under
+    a force [N], and the stresses below: what ``brinell contact`` prints."""
     words = [f"--on={on}", f"--angle={angle!r}", f"--force={force!r}", "--no-figure"]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         said = _ask("contact", os.fspath(scene), *words, "--output", folder)

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 use brinell::scene::DegreesOfFreedom;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
+use crate::commands::{Asked, catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Interface, Kind, Project, Version, talk};
 use crate::{paper, run, sweep};
@@ -112,7 +112,7 @@ impl Command {
                 });
                 sweep::command(project, &options.file, &wanted, &folder)
             }
-            Command::Check(options) => check::command(project, &options.fmu),
+            Command::Check(options) => check::command(project, &options.fmu, options.json),
             Command::Stiffness(options) => {
                 let folder = options.drawn.folder(project, "stiffness");
                 stiffness::command(project, &Model::read(&options.scene)?, options.options(), &folder)
@@ -146,7 +146,8 @@ impl Command {
             }
             Command::New(options) => {
                 let folder = options.output.unwrap_or_default();
-                new_scene::command(&options.name, &options.bearing, options.defect.as_ref(), options.axial, &folder)
+                let asked = Asked { spall: options.defect.as_ref(), axial: options.axial, hosted: options.hosted };
+                new_scene::command(&options.name, &options.bearing, asked, &folder)
             }
             Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
             Command::Completions { shell } => {

@@ -9,7 +9,7 @@ use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
 
 use crate::commands::size::ShaftSpeed;
-use crate::commands::{Spall, contact, new_scene, size, stiffness};
+use crate::commands::{Asked, Spall, contact, new_scene, size, stiffness};
 use crate::package::{Model, library};
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
@@ -123,7 +123,10 @@ impl Run {
     pub(super) fn model(&self) -> Result<Model> {
         let Some(scene) = &self.scene else {
             let bearing = self.bearing.as_deref().unwrap_or_default();
-            return Model::of_text(new_scene::unwritten(bearing, self.defect.as_ref(), None)?, bearing);
+            return Model::of_text(
+                new_scene::unwritten(bearing, Asked { spall: self.defect.as_ref(), ..Asked::default() })?,
+                bearing,
+            );
         };
         Model::read(scene)
     }
@@ -190,6 +193,9 @@ pub struct Check {
     /// The FMU
     #[arg(value_name = "FILE.fmu")]
     pub(super) fmu: PathBuf,
+    /// Prints what passed as JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// Options of `stiffness` and `modes`, which sweep the cage angle.

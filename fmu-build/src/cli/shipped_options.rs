@@ -51,6 +51,9 @@ pub struct New {
     /// much as the radial one]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) axial: Option<f64>,
+    /// The shaft is moved by an FMU's host, as a rotor's simulation
+    #[arg(long)]
+    pub(super) hosted: bool,
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,

@@ -15,4 +15,4 @@ pub mod stiffness;
 pub use contact::On;
 pub use stiffness::Options;
 
-pub(crate) use new_scene::Spall;
+pub(crate) use new_scene::{Asked, Spall};

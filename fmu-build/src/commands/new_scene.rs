@@ -38,21 +38,31 @@ impl FromStr for Spall {
     }
 }
 
+/// What a new scene is to be.
+#[derive(Debug, Default, Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub(crate) spall: Option<&'a Spall>,
+    /// Load along the axis (N).
+    pub(crate) axial: Option<f64>,
+    /// Whether a host moves the shaft.
+    pub(crate) hosted: bool,
+}
+
 /// The bearing of this name.
 fn named(name: &str) -> Result<CatalogueBearing> {
     Ok(catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() })?)
 }
 
 /// The scene of a bearing that is nowhere written down.
-pub(crate) fn unwritten(bearing: &str, spall: Option<&Spall>, axial: Option<f64>) -> Result<String> {
+pub(crate) fn unwritten(bearing: &str, asked: Asked) -> Result<String> {
     let bearing = named(bearing)?;
-    let name = format!("{}-{}", bearing.designation.to_lowercase(), spall.map_or("healthy", |spall| spall.on));
-    text(&name, &bearing, spall, axial)
+    let name = format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy", |spall| spall.on));
+    text(&name, &bearing, asked)
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
 pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
-    let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, None, None)?)?;
+    let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, Asked::default())?)?;
     scene.sensors.clear();
     match load {
         Some(load) if !(load.is_finite() && load > 0.0) => bail!("--load {load} N: it must be finite and above 0"),
@@ -65,15 +75,9 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
     Ok(scene)
 }
 
-/// The command: writes `<folder>/<name>.toml`, under an axial load (N) where one is asked for.
-pub(crate) fn command(
-    name: &str,
-    bearing: &str,
-    spall: Option<&Spall>,
-    axial: Option<f64>,
-    folder: &Path,
-) -> Result<()> {
-    let text = text(name, &named(bearing)?, spall, axial)?;
+/// The command: writes `<folder>/<name>.toml`.
+pub(crate) fn command(name: &str, bearing: &str, asked: Asked, folder: &Path) -> Result<()> {
+    let text = text(name, &named(bearing)?, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     let path = folder.join(format!("{name}.toml"));
@@ -85,7 +89,11 @@ pub(crate) fn command(
     schema::write_beside(folder)
 }
 
-fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>, axial: Option<f64>) -> Result<String> {
+fn text(name: &str, bearing: &CatalogueBearing, asked: Asked) -> Result<String> {
+    let Asked { spall, axial, hosted } = asked;
+    if let (Some(axial), true) = (axial, hosted) {
+        bail!("--axial {axial} N with --hosted: what the shaft carries is the host's");
+    }
     let (designation, inside) = (bearing.designation, bearing.inside);
     if let Some(axial) = axial.filter(|axial| !axial.is_finite() || *axial == 0.0) {
         bail!("--axial {axial} N: it must be finite and other than 0");
@@ -120,6 +128,7 @@ fn text(name: &str, bearing: &CatalogueBearing, spall: Option<&Spall>, axial: Op
             None => format!("[0.0, -{load:.1}]"),
             Some(axial) => format!("[0.0, -{load:.1}, {axial:?}]"),
         }),
+        hosted,
         axial => axial.map(|axial| axial.to_string()),
         axial_source,
         angle => inside.contact_angle.map(|angle| format!("{angle:<15?}")),
@@ -140,10 +149,16 @@ mod tests {
         for bearing in catalogue() {
             for spall in [None, Some("outer:5deg"), Some("inner:0.5mm"), Some("element:0.4mm")] {
                 let spall: Option<Spall> = spall.map(|text| text.parse().unwrap());
-                let scene =
-                    brinell_scene_file::from_toml(&text("mine", &bearing, spall.as_ref(), None).unwrap()).unwrap();
-                assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
-                assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
+                for hosted in [false, true] {
+                    let hosted = Asked { hosted, ..Asked::default() };
+                    let scene = brinell_scene_file::from_toml(
+                        &text("mine", &bearing, Asked { spall: spall.as_ref(), ..hosted }).unwrap(),
+                    )
+                    .unwrap();
+                    assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
+                    assert_eq!(scene.defects.len(), usize::from(spall.is_some()));
+                    assert_eq!(scene.shaft.motion == brinell::scene::Motion::Host, hosted.hosted);
+                }
             }
         }
     }
@@ -153,18 +168,20 @@ mod tests {
         for (name, axial, expected) in
             [("7205B", Some(500.0), 500.0), ("6205", Some(-300.0), -300.0), ("7205C", None, 500.0)]
         {
-            let text = text("mine", &catalogued(name).unwrap(), None, axial).unwrap();
+            let text = text("mine", &catalogued(name).unwrap(), Asked { axial, ..Asked::default() }).unwrap();
             let scene = brinell_scene_file::from_toml(&text).unwrap();
             assert_eq!((scene.bearing.degrees_of_freedom.count(), scene.shaft.axial.load), (3, expected), "{text}");
             assert_eq!(scene.bearing.contact_angle.is_some(), name != "6205");
         }
-        let refused = text("mine", &catalogued("6205").unwrap(), None, Some(0.0)).unwrap_err().to_string();
+        let refused = text("mine", &catalogued("6205").unwrap(), Asked { axial: Some(0.0), ..Asked::default() })
+            .unwrap_err()
+            .to_string();
         assert!(refused.contains("--axial 0 N"), "{refused}");
     }
 
     #[test]
     fn each_motion_that_a_scene_offers_is_taken_as_its_comment_says() {
-        let own = text("mine", &catalogued("6205").unwrap(), None, None).unwrap();
+        let own = text("mine", &catalogued("6205").unwrap(), Asked::default()).unwrap();
         let offers = |line: &&str| line.starts_with("motion = ");
         let mut tried = Vec::new();
         for line in own.lines().filter(offers) {

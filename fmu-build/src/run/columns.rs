@@ -107,7 +107,7 @@ impl Columns {
 }
 
 /// Whether a name is as the pattern says.
-fn matches(pattern: &str, name: &str) -> bool {
+pub(super) fn matches(pattern: &str, name: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == name,
         Some((start, rest)) => name

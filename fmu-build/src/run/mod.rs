@@ -116,7 +116,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
         draw(project, &model, options, &done, folder)?;
     }
     if let Some(recording) = done.recording.filter(|_| records) {
-        println!("{}", whole_file::take_out(recording.path(), folder)?.display());
+        keep(&recording, &options.columns, folder)?;
     }
     Ok(())
 }
@@ -150,6 +150,26 @@ fn chosen(simulation: &Simulation, options: &Options) -> Result<Columns> {
         options.grid.count + 1
     );
     Ok(Columns::without_elements(table))
+}
+
+/// Keeps what the recorder has sampled, the whole file or the columns that are asked for.
+fn keep(recording: &Signals, patterns: &[String], folder: &Path) -> Result<()> {
+    let asked = |name: &str| patterns.iter().any(|pattern| columns::matches(pattern, name));
+    let chosen = recording.indices(|name| name == "time" || patterns.is_empty() || asked(name));
+    if chosen.len() == recording.names().len() {
+        println!("{}", whole_file::take_out(recording.path(), folder)?.display());
+        return Ok(());
+    }
+    let name = recording.path().file_name().unwrap_or_default();
+    if chosen.len() == 1 {
+        note!("note: no {}: the recorder samples nothing that --columns names", name.display());
+        return Ok(());
+    }
+    let chosen: Vec<Column> = chosen.into_iter().map(|index| Column { index, unit: "" }).collect();
+    let path = folder.join(name);
+    Format::Npy.write(recording, &chosen, &path)?;
+    println!("{}", path.display());
+    Ok(())
 }
 
 /// Whether a signal is what an accelerometer shows.

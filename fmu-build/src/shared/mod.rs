@@ -17,6 +17,7 @@ pub use fmi_version::{Interface, Kind, Names, Version};
 pub use grid::Grid;
 pub use project::Project;
 pub use python::Python;
+pub use talk::bar;
 pub use whole_file::NotWritten;
 
 pub(crate) use numbers::{delimiter, digits, gigapascals, number, seed, speed, whole};

@@ -23,7 +23,7 @@ pub(crate) fn is_detailed() -> bool {
 }
 
 /// A bar of so many steps, hidden where nobody looks or nothing is to be said.
-pub(crate) fn bar(steps: u64, template: &str) -> ProgressBar {
+pub fn bar(steps: u64, template: &str) -> ProgressBar {
     if !is_shown() {
         return ProgressBar::hidden();
     }

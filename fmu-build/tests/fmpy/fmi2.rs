@@ -108,10 +108,10 @@ fn an_fmu_and_a_run_without_a_host_give_equal_bits() {
 fn the_check_command_passes_an_fmu_of_ours_and_refuses_a_broken_one() {
     let folder = common::folder("check");
     let project = Project::find();
-    check::command(&project, &common::fmu_of("6205-epps", &folder)).unwrap();
+    check::command(&project, &common::fmu_of("6205-epps", &folder), false).unwrap();
 
     let broken = folder.join("broken.fmu");
     fs::write(&broken, "no zip file").unwrap();
-    let refused = format!("{:#}", check::command(&project, &broken).unwrap_err());
+    let refused = format!("{:#}", check::command(&project, &broken, false).unwrap_err());
     assert!(refused.contains("broken.fmu"), "the message names the file: {refused}");
 }

@@ -71,7 +71,7 @@ fn the_build_command_makes_either_version_and_names_those_that_there_are() {
 fn the_check_command_passes_an_fmu_of_fmi_3() {
     let folder = common::folder("check3");
     for name in ["6205-epps", "6205-hosted"] {
-        check::command(&Project::find(), &common::fmu3_of(name, &folder)).unwrap();
+        check::command(&Project::find(), &common::fmu3_of(name, &folder), false).unwrap();
     }
 }
 

@@ -56,7 +56,11 @@ pub(super) fn typed(command: &str, folder: &Path) -> std::process::Output {
     let mut shell = Command::new("sh");
     shell.current_dir(folder).args(["-c", &whole]).env("PATH", path);
     shell.env("PYTHONPATH", env::join_paths(modules).unwrap()).env("PYTHONPYCACHEPREFIX", python.bytecode());
-    shell.env_remove("PYTHONDONTWRITEBYTECODE").env("MPLBACKEND", "Agg").env("BRINELL_FMU", program);
+    shell
+        .env_remove("PYTHONDONTWRITEBYTECODE")
+        .env("MPLBACKEND", "Agg")
+        .env("BRINELL_FMU", program)
+        .env("BRINELL_PROGRAM", program);
     if let Some(library) = common::built_with_the_tests() {
         shell.env("BRINELL_LIBRARY", library);
     }

@@ -73,7 +73,7 @@ fn the_notebook_of_a_rotor_carries_any_rotor_in_two_bearings() {
     // The spalled end goes down with each passage, the healthy one hardly: half of a line's width is 1.7 Hz, and lines
     // are 3.3 Hz apart.
     let check = "assert abs(strongest - ball_pass) < 3.4, (strongest, ball_pass)\n\
-                 assert len(plt.get_fignums()) == 1 and run.motion.shape == (8001, 36)\n\
+                 assert len(plt.get_fignums()) == 1 and run.yout.shape == (8001, 54)\n\
                  assert np.ptp(run.at(8)[late, 1]) > 2 * np.ptp(run.at(0)[late, 1])\n";
     let said = run_in(python, "rotor.ipynb", check);
     assert!(said.contains("ball-pass frequency: 89.8 Hz"), "{said}");
@@ -153,4 +153,56 @@ except brinell.BrinellError as error:
 else:
     raise AssertionError("accepted")
 print("handed on")
+"#;
+
+#[test]
+fn functions_of_the_module_give_what_their_names_say() {
+    let folder = common::folder("module-functions");
+    let script = folder.join("functions.py");
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
+    fs::write(&script, format!("import os, sys\nsys.path.insert(0, {module:?})\nos.chdir({folder:?})\n{FUNCTIONS}"))
+        .unwrap();
+    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
+    python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+}
+
+/// pandas is no package of this environment: where it lacks, `to_pandas` says so by Python's own error.
+const FUNCTIONS: &str = r#"
+import warnings
+import brinell
+
+assert brinell.__version__
+scene = brinell.new("mine", bearing="6206", defect="inner:1.2mm")
+assert scene.is_file() and 'on = "inner"' in scene.read_text()
+assert 'motion = "host"' in brinell.new("hosted", hosted=True).read_text()
+(found,) = brinell.catalogue("6205")
+# Z/2 (1 - D/Dpw) turns of the shaft, with the catalogue's own dimensions.
+ratio = found["element_diameter_mm"] / found["pitch_diameter_mm"]
+assert abs(found["bpfo_orders"] - found["element_count"] / 2 * (1 - ratio)) < 1e-3, found
+table = brinell.stiffness("er16k-tb1-hosted-shaft", load=400)
+assert len({column.size for column in table.values()}) == 1
+assert brinell.modes("er16k-tb1-hosted-shaft", load=400)
+run = brinell.run("6205-healthy", stop=0.005)
+assert "<table>" in run._repr_html_() and run["time"][-1] == 0.005
+assert [axis.get_ylabel() for axis in run.plot(["shaft.y", "shaft.force.y"]).axes] == ["m", "N"]
+try:
+    import pandas
+except ModuleNotFoundError:
+    pass
+else:
+    assert run.to_pandas().attrs["units"]["shaft.y"] == "m"
+text = scene.read_text() + "\n[recorder]\nrate_hz = 12800.0\n"
+scene.write_text(text)
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    run = brinell.run(scene, stop=0.005, columns="shaft.load.y")
+assert run.recording is None
+assert [w.category for w in said] == [brinell.BrinellWarning] and "samples nothing" in str(said[0].message), said
+assert said[0].filename.endswith("functions.py")
+try:
+    brinell.contact("er16k-tb1", on="middle", angle=0.0, force=300.0)
+except brinell.BrinellError as error:
+    assert "middle" in str(error), error
+else:
+    raise AssertionError("no body of that name")
 "#;

@@ -192,6 +192,24 @@ fn noise_is_of_the_sensors_alone_as_strong_as_asked_and_the_same_again() {
 }
 
 #[test]
+fn the_recorders_file_keeps_what_columns_name() {
+    let folder = common::folder("recorded-columns");
+    let scene = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\n"));
+    let (all, some, none) = (folder.join("all"), folder.join("some"), folder.join("none"));
+    run(&scene, &all, &["--stop", "0.01"]);
+    run(&scene, &some, &["--stop", "0.01", "--columns", "sensor.*"]);
+    let said = run(&scene, &none, &["--stop", "0.01", "--columns", "shaft.load.y"]);
+    assert!(said.contains("the recorder samples nothing that --columns names"), "{said}");
+    assert!(!none.join("6205-healthy.npy").exists());
+    let script = folder.join("same.py");
+    let text = "import sys\nimport numpy as np\na, b = (np.load(f'{folder}/6205-healthy.npy') for folder in sys.argv[1:])\n\
+                assert b.dtype.names == ('time', 'sensor.acceleration') and len(a.dtype.names) > 20, b.dtype.names\n\
+                assert len(b) > 50 and all((a[name] == b[name]).all() for name in b.dtype.names)\n";
+    fs::write(&script, text).unwrap();
+    common::python().run_file(&script, [&all, &some]).unwrap_or_else(|error| panic!("{error:#}"));
+}
+
+#[test]
 fn sound_is_what_the_recorder_filters_at_the_rate_and_scale_that_are_asked_for() {
     let folder = common::folder("run-wav");
     let scene = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\n"));

@@ -16,7 +16,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use fmu_build::shared::{Project, Python, csv, whole_file};
+use fmu_build::shared::{Project, Python, bar, csv, whole_file};
 use recordings::Known;
 
 const TEMPLATE: &str = include_str!("../../assets/validation.md");
@@ -91,10 +91,15 @@ impl Values {
 pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> {
     fs::create_dir_all(docs.join("evidence")).with_context(|| docs.display().to_string())?;
     let mut values = Values { folder: folder(project).join("tables") };
-    let wanted = |part: Part, text: &str| {
+    let parts = if options.only.is_some() { 1 } else { 5 + u64::from(!options.recordings.is_empty()) };
+    let bar = bar(parts, "{bar:30} {pos} of {len} parts, {elapsed}");
+    let mut begun = 0;
+    let mut wanted = |part: Part, text: &str| {
         let wanted = options.only.is_none_or(|only| only == part);
         if wanted {
-            eprintln!("validate: {text}");
+            bar.suspend(|| eprintln!("validate: {text}"));
+            bar.set_position(begun);
+            begun += 1;
         }
         wanted
     };
@@ -118,6 +123,7 @@ pub fn command(project: &Project, options: &Options, docs: &Path) -> Result<()> 
         let path = recordings::kept(docs);
         whole_file::write(&path, table)?;
     }
+    bar.finish_and_clear();
     values.set("recordings", recordings::last(docs))?;
     let missing = values.missing(TEMPLATE);
     if !missing.is_empty() {

@@ -1,0 +1,206 @@
+"""FMUs of bearings in a host of one's own: variables by name, over fmpy, and a bearing whose shaft the host moves.
+
+    from brinell.host import Bearing
+    bearing = Bearing(fmu)
+    position = bearing.rest([0.0, -500.0])
+    bearing.run()
+    mean_force, force = bearing.advance(position, (0.0, 0.0), (0.0, 0.0), 1e-4)
+
+SI units; y up; angles counter-clockwise from +x; ``force`` is the bearing's force on the ring it is named after.
+"""
+
+import atexit
+import collections
+import functools
+import os
+import shutil
+from ctypes import POINTER, byref, c_double, c_uint
+
+import fmpy
+import numpy as np
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2FMUstate
+from fmpy.logging import addLoggerProxy
+
+
+def unzipped(fmu):
+    """The FMU's files, unpacked once for this process and removed at its end."""
+    return unzipped_of(str(fmu), os.stat(fmu).st_mtime_ns)
+
+
+@functools.cache
+def unzipped_of(fmu, _changed):
+    folder = fmpy.extract(fmu)
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+# The last things that the FMUs said. One list for all instances: fmpy has one logger for the whole process.
+SAID = collections.deque(maxlen=2)
+HEAR = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, message: SAID.append(message.decode()))
+
+
+def what_was_said(error):
+    said = "; ".join(SAID) or str(error)
+    SAID.clear()
+    return said
+
+
+class Instance:
+    """One instance of an FMU, its variables by name. An error carries what the FMU said about it."""
+
+    def __init__(self, fmu, name="bearing"):
+        fmu = str(fmu)
+        self.description = fmpy.read_model_description(fmu)
+        self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
+        self.inputs = {v.name for v in self.description.modelVariables if v.causality == "input"}
+        self.units = {v.name: v.unit for v in self.description.modelVariables}
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = HEAR
+        callbacks.allocateMemory, callbacks.freeMemory = defaultCallbacks.allocateMemory, defaultCallbacks.freeMemory
+        # Fills in the variable arguments of the FMU's messages, which Python cannot.
+        addLoggerProxy(byref(callbacks))
+        self.slave = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=unzipped(fmu),
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName=name,
+        )
+        self.kept, self.name = callbacks, name
+        self.slave.instantiate(callbacks=callbacks)
+        # Without this an error would say no more than its status.
+        self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
+        self.time = 0.0
+        self.state = fmi2FMUstate()
+
+    def enter(self, start=None):
+        """Sets parameters and start values and goes into initialization mode."""
+        for name, value in (start or {}).items():
+            if isinstance(value, str):
+                self.call(self.slave.setString, [self.reference[name]], [value])
+            else:
+                self.write([name], [value])
+        self.call(self.slave.setupExperiment, startTime=0.0)
+        self.call(self.slave.enterInitializationMode)
+
+    def run(self):
+        """Ends initialization; steps may follow."""
+        self.call(self.slave.exitInitializationMode)
+        self.time = 0.0
+
+    def call(self, function, *arguments, **named):
+        try:
+            return function(*arguments, **named)
+        except FMICallException as error:
+            raise RuntimeError(f"{function.__name__} at {self.time:.9g} s: {what_was_said(error)}") from None
+
+    def read(self, names):
+        return np.array(self.call(self.slave.getReal, [self.reference[name] for name in names]))
+
+    def write(self, names, values):
+        self.call(self.slave.setReal, [self.reference[name] for name in names], [float(value) for value in values])
+
+    def step(self, length):
+        self.call(self.slave.doStep, self.time, length)
+        self.time += length
+
+    def save(self):
+        """Takes the FMU's state, over the one taken before."""
+        self.call(self.slave.fmi2GetFMUstate, self.slave.component, byref(self.state))
+        self.saved_time = self.time
+
+    def restore(self):
+        """Goes back to the state taken last."""
+        self.call(self.slave.fmi2SetFMUstate, self.slave.component, self.state)
+        self.time = self.saved_time
+
+    def close(self):
+        self.slave.freeInstance()
+
+
+class Numbers:
+    """Some variables, with an array that the C interface reads or fills in place: no conversion in each step."""
+
+    def __init__(self, instance, names):
+        self.array = np.zeros(len(names))
+        references = (c_uint * len(names))(*(instance.reference[name] for name in names))
+        self.arguments = instance.slave.component, references, len(names), self.array.ctypes.data_as(POINTER(c_double))
+
+
+class Bearing(Instance):
+    """A bearing whose shaft the host moves. Vectors are pairs (x, y) in arrays.
+
+    No load stands on its housing unless `start` names one: the host's shaft says what the bearing carries.
+    """
+
+    def __init__(self, fmu, name="bearing", start=None):
+        super().__init__(fmu, name)
+        if "shaft.x" not in self.inputs:
+            self.close()
+            raise ValueError(f'{name}: a host moves no shaft of this scene; it needs motion = "host" in [shaft]')
+        self.motion = Numbers(self, [f"shaft.{q}" for q in ("x", "y", "vx", "vy", "ax", "ay")])
+        self.tangent = Numbers(self, [f"shaft.stiffness.{a}{b}" for a in "xy" for b in "xy"])
+        self.forces = Numbers(self, [f"shaft.{q}" for q in ("mean_force.x", "mean_force.y", "force.x", "force.y")])
+        self.enter({**dict.fromkeys(self.inputs & {"housing.load.x", "housing.load.y"}, 0.0), **(start or {})})
+
+    def force_at(self, position):
+        """During initialization: the static force on the shaft, elements and housing in balance."""
+        self.write(["shaft.x", "shaft.y"], position)
+        return self.read(["shaft.force.x", "shaft.force.y"])
+
+    def rest(self, load):
+        """During initialization: moves the shaft to where the bearing carries `load` and gives that position.
+
+        Newton with differences of 1 nm: the force is convex in the approach, so that from deep in contact the
+        way goes downhill. A housing on springs may yield a lot: 0.1 mm of approach are enough for some 1000 N.
+        """
+        position = 1e-4 * np.asarray(load) / np.linalg.norm(load)
+        for _ in range(100):
+            force = self.force_at(position)
+            slope = np.column_stack([(self.force_at(position + d) - force) / 1e-9 for d in 1e-9 * np.eye(2)])
+            change = np.linalg.solve(slope, -(force + load))
+            position = position + change
+            if np.linalg.norm(change) < 1e-12:
+                self.force_at(position)
+                return position
+        raise RuntimeError(f"no position found where the bearing carries {load} N")
+
+    def linear(self):
+        """Stiffness [N/m] and damping [N s/m] for small motion about the present state, elements in balance.
+
+        Two contacts of an element are in series, each with its normal stiffness and, for damping Q(1 + χ δ'), with χ Q;
+        at frequencies far below the element's own they yield c (k_i² + k_o²)/(k_i + k_o)², which is c/2 within 0.1 %.
+        Damping τ k δ' of both makes τ times the stiffness.
+        """
+        stiffness = self.stiffness()
+        (constant,) = self.read(["contact.damping"])
+        if self.units["contact.damping"] == "s":
+            return stiffness, constant * stiffness
+        damping = np.zeros((2, 2))
+        count = sum(name.endswith(".path") for name in self.reference)
+        for j in range(1, count + 1):
+            angle, force = self.read([f"element[{j}].angle", f"element[{j}].force.inner"])
+            normal = np.array([np.cos(angle), np.sin(angle)])
+            damping += 0.5 * constant * force * np.outer(normal, normal)
+        return stiffness, damping
+
+    def advance(self, position, velocity, acceleration, length):
+        """One step of `length` [s]; within it the shaft goes on from `position` with `velocity` and `acceleration`.
+
+        Gives the force on the shaft: its mean over the step, and at the end, where the shaft is then.
+        """
+        self.motion.array[:] = *position, *velocity, *acceleration
+        slave = self.slave
+        try:
+            slave.fmi2SetReal(*self.motion.arguments)
+            slave.fmi2DoStep(slave.component, self.time, length, 1)
+            slave.fmi2GetReal(*self.forces.arguments)
+        except FMICallException as error:
+            raise RuntimeError(f"step at {self.time:.9g} s: {what_was_said(error)}") from None
+        self.time += length
+        return self.forces.array[:2].copy(), self.forces.array[2:].copy()
+
+    def stiffness(self):
+        """The tangent stiffness matrix now [N/m]."""
+        self.call(self.slave.fmi2GetReal, *self.tangent.arguments)
+        return self.tangent.array.reshape(2, 2).copy()

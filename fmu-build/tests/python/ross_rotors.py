@@ -1,0 +1,167 @@
+"""Rotors of ROSS in one bearing and in two: they rest where statics say; linear ROSS moves as they do, at one speed and
+run up through critical speeds.
+
+Arguments: the folder of the examples, a folder for the FMUs.
+"""
+
+import contextlib
+import io
+import sys
+from pathlib import Path
+
+sys.path.insert(0, sys.argv[1])
+import numpy as np  # noqa: E402
+from bearing import SCENES, build, changed_scene  # noqa: E402
+from brinell.ross import GRAVITY, Coupled, Speed, element, ross, simulate, unbalance  # noqa: E402
+
+LENGTH, COUNT, BEARING, DISK = 0.1, 4, 1, 2  # four elements of 0.1 m; the other bearing is at the far end
+folder = Path(sys.argv[2])
+base = SCENES / "er16k-tb1-hosted-shaft.toml"
+healthy, spalled, preloaded = build(
+    [
+        changed_scene(base, "healthy", {"defect": None, "contact": None}, folder),
+        changed_scene(base, "spalled", {}, folder),
+        # Every ball carries at all times: it is as linear as a bearing can be.
+        changed_scene(SCENES / "6205-hosted.toml", "preloaded", {"bearing.radial_clearance_um": -4.0}, folder),
+    ],
+    folder,
+)
+steel = ross.Material("steel", rho=7810, E=211e9, G_s=81.2e9)
+
+
+def rotor(*bearings):
+    elements = [ross.ShaftElement(L=LENGTH, idl=0.0, odl=0.05, material=steel, beta=5e-6) for _ in range(COUNT)]
+    disks = [ross.DiskElement.from_geometry(n=DISK, material=steel, width=0.02, i_d=0.05, o_d=0.2)]
+    return ross.Rotor(elements, disks, list(bearings))
+
+
+def slender(*bearings):
+    """Critical speeds at 880 and 907 rad/s."""
+    elements = [ross.ShaftElement(L=0.05, idl=0.0, odl=0.03, material=steel, beta=5e-6) for _ in range(8)]
+    disks = [ross.DiskElement.from_geometry(n=3, material=steel, width=0.03, i_d=0.03, o_d=0.2)]
+    return ross.Rotor(elements, disks, list(bearings))
+
+
+def rests():
+    """Gives what each bearing carries."""
+    speed, pressed = 2 * np.pi * 20.0, {BEARING: (0.0, -200.0)}
+    # Moments about the far bearing: the shaft's weight in its middle, the disk, and what presses the shaft down.
+    shaft = 7810 * np.pi / 4 * 0.05**2 * LENGTH * COUNT
+    disk = 7810 * np.pi / 4 * (0.2**2 - 0.05**2) * 0.02
+    arm = LENGTH * (COUNT - BEARING)
+    near = (GRAVITY * (shaft * LENGTH * COUNT / 2 + disk * LENGTH * (COUNT - DISK)) + 200.0 * arm) / arm
+    far = GRAVITY * (shaft + disk) + 200.0 - near
+
+    held = rotor(ross.BearingElement(n=COUNT, kxx=1e8, cxx=200.0, kzz=1e6))
+    with Coupled(held, {BEARING: healthy}, pressed, speed, 1e-5) as coupled:
+        load = coupled.load
+    # Two springs under a rotor: statics alone say what each carries. 1e-5: the one that stands in is 1e9 N/m.
+    assert abs(load[1] + near) < 1e-5 * near and abs(load[0]) < 1e-6, (load, near)
+    run = simulate(held, {BEARING: healthy}, speed, 2e-3, loads=pressed, seen=["shaft.force.y"])
+    assert run.yout.shape == (len(run.time), held.ndof) and len(run.time) == 41
+    # Without unbalance nothing moves it but the varying compliance: well below the approach of some 10 µm.
+    assert np.abs(run.at(BEARING)).max() < 2e-6, np.abs(run.at(BEARING)).max()
+    assert abs(run.outputs[BEARING]["shaft.force.y"][0] - near) < 1e-6 * near
+
+    # In two FMUs, no other bearing: the far one rests on the rest of the weight.
+    free = rotor()
+    two = simulate(free, {BEARING: healthy, COUNT: healthy}, speed, 2e-3, loads=pressed, seen=["shaft.force.y"])
+    for node, weight in ((BEARING, near), (COUNT, far)):
+        assert abs(two.outputs[node]["shaft.force.y"][0] - weight) < 1e-6 * near, node
+        assert np.abs(two.at(node)).max() < 2e-6, (node, np.abs(two.at(node)).max())
+
+    # Bearings are told apart: in the other order all is the same; the spalled one is felt where it is.
+    forces = {DISK: unbalance(1e-4)}
+    there, back = (
+        simulate(free, bearings, speed, 4e-3, loads=pressed, forces=forces)
+        for bearings in ({BEARING: spalled, COUNT: healthy}, {COUNT: healthy, BEARING: spalled})
+    )
+    assert np.abs(there.yout - back.yout).max() < 1e-6 * np.abs(there.yout).max()
+    felt, same = (run.outputs[BEARING]["housing.ay"] for run in (there, back))
+    assert np.abs(felt - same).max() < 1e-6 * np.abs(felt).max()
+    return near, far
+
+
+def linear_elements(loads, speeds):
+    return [element(preloaded, n, speeds, (0.0, -load)) for n, load in loads.items()]
+
+
+def moves_as_linear_at_one_speed():
+    """Gives the largest difference of amplitudes at shaft speed."""
+    speed, eccentric, pressed = 157.08, 1e-4, {3: (0.0, -1000.0)}
+    forces = {3: unbalance(eccentric)}
+    bearings = {0: preloaded, 8: preloaded}
+    run = simulate(slender(), bearings, speed, 0.4, 1e-4, loads=pressed, forces=forces, seen=["shaft.force.y"])
+    assert isinstance(run, ross.TimeResponseResults)
+    carried = {n: run.outputs[n]["shaft.force.y"][0] for n in (0, 8)}
+    linear = slender(*linear_elements(carried, [speed])).run_unbalance_response(
+        [3], [eccentric], [0.0], np.array([speed])
+    )
+    late = run.t > run.t[-1] - 5 * 2 * np.pi / speed
+    # Amplitude and mean together: five turns hold no whole number of passages.
+    shapes = np.column_stack([np.cos(speed * run.t), np.sin(speed * run.t), np.ones_like(run.t)])[late]
+    apart = []
+    for axis in (0, 1):
+        cos, sin, _ = np.linalg.lstsq(shapes, run.at(3)[late, axis], rcond=None)[0]
+        apart.append(abs(np.hypot(cos, sin) / np.abs(linear.forced_resp[run.rotor.number_dof * 3 + axis, 0]) - 1.0))
+    # 0.03 % and 0.003 %: what the stiffness varies as elements pass, which a linear bearing has the mean of.
+    assert max(apart) < 2e-3, apart
+    return max(apart), carried
+
+
+def runs_up_as_linear(carried):
+    """Gives the difference of the disk's motion over its largest."""
+    profile, h, stop, finer = ([0.0, 0.1], [800.0, 1000.0]), 5e-5, 0.1, 4
+    forces = {3: unbalance(2e-6)}
+    ours, quiet = (
+        simulate(slender(), {0: preloaded, 8: preloaded}, profile, stop, h, loads={3: (0.0, -1000.0)}, forces=of,
+                 seen=["cage.angle", "cage.speed"])
+        for of in (forces, {})
+    )  # fmt: skip
+    assert ours.speed[0] == 800.0 and abs(ours.speed[-1] - 1000.0) < 1e-9
+    # The cage turns by its share of the shaft's angle, 90 rad; speed is held over a step at what makes that exact.
+    cage = ours.outputs[0]
+    share = cage["cage.speed"][0] / 800.0
+    turned = cage["cage.angle"][-1] - cage["cage.angle"][0]
+    assert abs(turned - share * 90.0) < 1e-9, (turned, share)
+    linear = slender(*linear_elements(carried, [700.0, 900.0, 1100.0]))
+    t = np.linspace(0.0, stop, finer * (len(ours.t) - 1) + 1)
+    turning = Speed(profile).at(t)
+    force = np.zeros((len(t), linear.ndof))
+    at = slice(linear.number_dof * 3, linear.number_dof * 3 + 2)
+    force[:, at] = forces[3](t, *turning).T
+    with contextlib.redirect_stdout(io.StringIO()):
+        expected = linear.integrate_system(turning[1], force, t)[1][::finer, at]
+    # Less what the elements' passing does without an unbalance.
+    found = ours.at(3) - quiet.at(3)
+    apart = np.abs(found - expected).max() / np.abs(expected).max()
+    # 0.1 %, of which Newmark's method at 12.5 µs has the half: its period is (ωh)²/12 = 1e-5 long.
+    assert apart < 5e-3, apart
+    assert np.abs(expected).max() > 5e-6, "no critical speed was passed"
+    campbell = linear.run_campbell(np.linspace(700.0, 1100.0, 3))
+    assert campbell.wd.shape[0] == 3
+    return apart
+
+
+def refuses():
+    free, node = rotor(), BEARING
+    for bearings, words, more in (
+        ({node: healthy, 9: healthy}, "a bearing at node 9: the shaft has nodes 0 to 4", {}),
+        ([healthy], "scenes by their nodes", {}),
+        ({node: healthy}, "at least one pass", {"passes": 0}),
+        ({node: healthy}, "as many speeds", {"speed": ([0.0, 1.0], [1.0])}),
+        ({node: SCENES / "6205-healthy.toml"}, 'needs motion = "host" in [shaft]', {}),
+    ):
+        try:
+            simulate(free, bearings, **{"speed": 100.0, "stop": 1e-3, **more})
+        except ValueError as error:
+            assert words in str(error), error
+        else:
+            raise AssertionError(words)
+
+
+near, far = rests()
+refuses()
+apart, carried = moves_as_linear_at_one_speed()
+run_up = runs_up_as_linear(carried)
+print(f"rests on {near:.3f} N and {far:.3f} N; linear ROSS within {100 * apart:.2g} %, run up {100 * run_up:.2g} %")
