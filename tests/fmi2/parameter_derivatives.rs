@@ -43,6 +43,11 @@ fn derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_
             }
             let listed =
                 |unknown: u32| dependencies.iter().any(|d| d.output == unknown && d.initial.contains(&known.reference));
+            if known.name.ends_with("length") || known.name.ends_with("depth") {
+                // A map is not exact enough for a derivative.
+                assert_eq!(host.directional(&unknowns, &[known.reference], &[1.0]), Err(Status::Discard));
+                continue;
+            }
             let given = host.directional(&unknowns, &[known.reference], &[1.0]).unwrap();
             let (at, step) = (host.get(&[known.reference]).unwrap()[0], nudge_of(known));
             let look = |value: f64| {

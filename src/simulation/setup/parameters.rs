@@ -1,6 +1,6 @@
 //! Parameters that a host may set: their start values, and the scene with the values set.
 
-use crate::scene::{ContactLaw, Damping, RepeatedInputs, Ring, Scene};
+use crate::scene::{ContactLaw, Damping, DefectShape, RepeatedInputs, Ring, Scene};
 use crate::simulation::SimulationError;
 use crate::simulation::interface::table::{Kind, Variable};
 use crate::simulation::interface::{Parameter, Quantity, RingName};
@@ -11,7 +11,7 @@ pub(in crate::simulation) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<
         .iter()
         .map(|variable| match variable.kind {
             Kind::Real { start, .. } => (start.unwrap_or(0.0), 0),
-            Kind::Enumeration { start, .. } => (0.0, start),
+            Kind::Enumeration { start, .. } | Kind::Whole { start } => (0.0, start),
             Kind::Integer | Kind::Text { .. } => (0.0, 0),
         })
         .unzip()
@@ -64,7 +64,34 @@ pub(in crate::simulation) fn with_parameters(
             Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
             Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
             Parameter::Tolerance => changed.tolerance = value,
-            // The recorder is no part of the model.
+            Parameter::SpallLength(index) => {
+                if let DefectShape::Spall { length, .. } = &mut changed.defects[index].shape {
+                    *length = value;
+                }
+            }
+            Parameter::SpallDepth(index) => {
+                if let DefectShape::Spall { depth, .. } = &mut changed.defects[index].shape {
+                    *depth = value;
+                }
+            }
+            Parameter::CageSeed => {
+                if let Some(cage) = &mut changed.cage.irregularity {
+                    // No other numbers can be set.
+                    cage.draw_with(integer.unsigned_abs().into());
+                }
+            }
+            Parameter::FilmViscosity => {
+                if let Some(film) = &mut changed.film {
+                    film.viscosity = value;
+                }
+            }
+            Parameter::SensorResonance(index) => changed.sensors[index].set_resonance(value),
+            Parameter::RecorderRate => {
+                if let Some(recorder) = &mut changed.recorder {
+                    recorder.rate = value;
+                }
+            }
+            // No part of a scene.
             Parameter::RecorderFolder => {}
             Parameter::RepeatedInputs => {
                 changed.repeated_inputs = RepeatedInputs::numbered(integer).unwrap_or(changed.repeated_inputs);
