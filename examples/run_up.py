@@ -145,7 +145,7 @@ def variables():
     found += [(f"{side}.{motion}", "output", None) for side in SIDES for motion in MOTION]
     found += [(name, "output", None) for name in ("x", "y", "vx", "vy", "angle")]
     parameters = {"mass": MASS, "journal_mass": JOURNAL, "stiffness": STIFFNESS, "damping": 0.0, "eccentricity": 0.0}
-    parameters.update({"rate": 0.0, "load": 0.0, "start.speed": 0.0, "start.y": 0.0})
+    parameters.update({"rate": 0.0, "load": 0.0, "start.speed": 0.0, "start.x": 0.0, "start.y": 0.0})
     return found + [(name, "parameter", value) for name, value in parameters.items()]
 
 
@@ -165,7 +165,7 @@ def write_system(path, bearing, disk, rest):
         wires += [("disk", f"{side}.{motion}", side, f"shaft.{motion}") for motion in MOTION]
     own += [connector(axis, "output") for axis in "xy"]
     values = {"damping": DAMPING, "eccentricity": ECCENTRICITY, "rate": RATE, "load": -LOAD}
-    values.update({"start.speed": FROM, "start.y": rest[1]})
+    values.update({"start.speed": FROM, "start.x": rest[0], "start.y": rest[1]})
     elements.append(component("disk", "resources/disk.fmu", own, values))
     connections = "".join(
         f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'

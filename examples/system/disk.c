@@ -9,7 +9,7 @@
 /* Value references: forces of the left and the right bearing, speed, motion of both journals and of the disk, angle,
    then parameters, in the order of variables() in run_up.py. */
 enum { FORCE, SPEED = 4, JOURNAL, X = JOURNAL + 12, V = X + 2, ANGLE = V + 2, MASS, JOURNAL_MASS, STIFFNESS, DAMPING };
-enum { ECCENTRICITY = DAMPING + 1, RATE, LOAD, START_SPEED, START, COUNT };
+enum { ECCENTRICITY = DAMPING + 1, RATE, LOAD, START_SPEED, START, COUNT = START + 2 };
 enum { INPUTS = SPEED, PARAMETERS = MASS };
 
 #include "unit.h"
@@ -26,8 +26,10 @@ static int is_possible(unsigned reference, double value) {
 
 static void start(double p[COUNT]) {
     p[SPEED] = p[START_SPEED];
-    p[JOURNAL + 1] = p[JOURNAL + 7] = p[START];
-    p[X + 1] = p[START] + p[LOAD] / p[STIFFNESS];
+    for (int axis = 0; axis < 2; axis++) {
+        p[JOURNAL + axis] = p[JOURNAL + 6 + axis] = p[X + axis] = p[START + axis];
+    }
+    p[X + 1] += p[LOAD] / p[STIFFNESS];
 }
 
 /* Accelerations along an axis of the left and the right journal and the disk, the forces having grown for so long. */
