@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A rotor with unbalance in a pair of bearings, run up through its critical speed: against one in linear bearings.
 
-    python examples/run_up.py [--build] [--short] [--step 2e-5] [-o target/examples]
+    python examples/run_up.py [--build] [--ssp 2.0] [--short] [--step 2e-5] [-o target/examples]
 
 A disk of 10 kg in the middle of an elastic shaft of 2e7 N/m, its journals of 1 kg in two healthy ER16K bearings in a
 casing that stands. It carries 1000 N and is run up by 150 Hz per second with 0.6 um of unbalance.
@@ -24,7 +24,7 @@ import numpy as np
 from bearing import SCENES, Bearing, build, changed_scene, unzipped, whole
 from fmpy.ssp.ssd import read_ssd
 from pair_of_bearings import component, description
-from system_of_fmus import CASINGS, Unit, connector, step, unit_fmu
+from system_of_fmus import CASINGS, Unit, connector, in_version, step, unit_fmu
 
 MASS, JOURNAL, STIFFNESS = 10.0, 1.0, 2e7  # kg, kg, N/m
 DAMPING = 2 * 0.02 * np.sqrt(STIFFNESS * MASS)  # N s/m on the disk, from outside
@@ -149,7 +149,7 @@ def variables():
     return found + [(name, "parameter", value) for name, value in parameters.items()]
 
 
-def write_system(path, bearing, disk, rest):
+def write_system(path, bearing, disk, rest, ssp):
     """The system as SSP: bearings first, then the rotor."""
     elements, wires, own = [], [], [connector("speed", "output")]
     for side in SIDES:
@@ -185,7 +185,7 @@ def write_system(path, bearing, disk, rest):
 </ssd:SystemStructureDescription>
 """
     with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
-        system.writestr("SystemStructure.ssd", text)
+        system.writestr("SystemStructure.ssd", in_version(text, ssp))
         system.write(bearing, f"resources/{bearing.name}")
         system.write(disk, "resources/disk.fmu")
 
@@ -242,9 +242,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", action="store_true", help="write the SSP file only")
     parser.add_argument("--short", action="store_true", help="the first 20 ms only")
+    parser.add_argument("--ssp", choices=("1.0", "2.0"), default="1.0", help="version of the SSP file")
     parser.add_argument("--step", type=float, default=2e-5, help="communication step [s]")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
+    if options.ssp != "1.0" and not options.build:
+        parser.error("fmpy reads SSP 1.0 only: add --build")
     folder, h, stop = options.output, options.step, 0.02 if options.short else 0.7
     changes = {"defect": None, "contact": None, **CASINGS["fixed"]}
     scene = changed_scene(SCENES / "er16k-tb1-hosted-shaft.toml", "run-up-bearing", changes, folder)
@@ -254,7 +257,7 @@ def main():
     settle, rest = settled(fmu, {"shaft.speed": FROM})
     settle.close()
     ssp = folder / "run-up.ssp"
-    write_system(ssp, fmu, disk, rest)
+    write_system(ssp, fmu, disk, rest, options.ssp)
     print(ssp)
     if options.build:
         return
