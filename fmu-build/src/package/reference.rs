@@ -1,9 +1,9 @@
 //! Reference results: what an importer is to find when it runs an FMU, and by which inputs.
 //!
 //! Three files after the FMI cross-check rules, version 4.1 (modelica/fmi-cross-check, sections 9.1.4 and 10):
-//! `<name>_ref.csv`, `<name>_in.csv` and `<name>_ref.opt`. The FMU holds them as well, described by the layered standard
-//! FMI-LS-REF 1.0.0-beta.1 in `extra/org.fmi-standard.fmi-ls-ref`, with the experiment, `<name>.exp`, in the Modelica
-//! Association's draft of an experiments format.
+//! `<name>_ref.csv`, `<name>_in.csv` and `<name>_ref.opt`. The FMU holds them as well, described by the layered
+//! standard FMI-LS-REF 1.0.0-beta.1 in `extra/org.fmi-standard.fmi-ls-ref`, with the experiment, `<name>.exp`, in the
+//! Modelica Association's draft of an experiments format.
 //!
 //! The run is the scene's default experiment. Inputs stand at their start values, except of a shaft that hosts move: at
 //! its start value it would hang in the clearance and touch nothing. It goes down through the clearance until the

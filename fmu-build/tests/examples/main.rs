@@ -116,8 +116,9 @@ fn page(name: &str) -> String {
 
 /// Blocks of the pages about examples in this language.
 fn blocks(language: &str) -> Vec<String> {
-    let guide: String =
-        ["hosting", "step", "sensors", "systems", "axial"].map(|name| page(&format!("how-to/{name}.md"))).concat();
+    let guide: String = ["hosting", "step", "sensors", "systems", "axial", "run-up", "reference-results"]
+        .map(|name| page(&format!("how-to/{name}.md")))
+        .concat();
     let fence = format!("```{language}\n");
     let parts = guide.split(&fence).skip(1);
     parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()

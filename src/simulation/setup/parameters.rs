@@ -64,33 +64,16 @@ pub(in crate::simulation) fn with_parameters(
             Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
             Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
             Parameter::Tolerance => changed.tolerance = value,
-            Parameter::SpallLength(index) => {
-                if let DefectShape::Spall { length, .. } = &mut changed.defects[index].shape {
-                    *length = value;
-                }
-            }
-            Parameter::SpallDepth(index) => {
-                if let DefectShape::Spall { depth, .. } = &mut changed.defects[index].shape {
-                    *depth = value;
-                }
-            }
+            Parameter::SpallLength(k) => sizes_of(&mut changed, k).for_each(|[length, _]| *length = value),
+            Parameter::SpallDepth(k) => sizes_of(&mut changed, k).for_each(|[_, depth]| *depth = value),
             Parameter::CageSeed => {
-                if let Some(cage) = &mut changed.cage.irregularity {
-                    // No other numbers can be set.
-                    cage.draw_with(integer.unsigned_abs().into());
-                }
+                // Numbers below 0 were refused when they were set.
+                let seed = integer.unsigned_abs().into();
+                changed.cage.irregularity.iter_mut().for_each(|cage| cage.draw_with(seed));
             }
-            Parameter::FilmViscosity => {
-                if let Some(film) = &mut changed.film {
-                    film.viscosity = value;
-                }
-            }
+            Parameter::FilmViscosity => changed.film.iter_mut().for_each(|film| film.viscosity = value),
             Parameter::SensorResonance(index) => changed.sensors[index].set_resonance(value),
-            Parameter::RecorderRate => {
-                if let Some(recorder) = &mut changed.recorder {
-                    recorder.rate = value;
-                }
-            }
+            Parameter::RecorderRate => changed.recorder.iter_mut().for_each(|recorder| recorder.rate = value),
             // No part of a scene.
             Parameter::RecorderFolder => {}
             Parameter::RepeatedInputs => {
@@ -100,6 +83,15 @@ pub(in crate::simulation) fn with_parameters(
     }
     changed.check()?;
     Ok(changed)
+}
+
+/// Length and depth of a defect, if it is a spall.
+fn sizes_of(scene: &mut Scene, defect: usize) -> impl Iterator<Item = [&mut f64; 2]> {
+    let sizes = match &mut scene.defects[defect].shape {
+        DefectShape::Spall { length, depth, .. } => Some([length, depth]),
+        DefectShape::Profile(_) => None,
+    };
+    sizes.into_iter()
 }
 
 fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {

@@ -6,9 +6,9 @@
 //! sum to zero, and says that forces in space are none. Matching is by member name, and a host may leave out what it
 //! has no use for (`bus`): accelerations are optional, and either of two forces goes to the ring's body.
 //!
-//! Inside it is a terminal for each axis with the names that the Modelica Standard Library's mechanical flanges have and
-//! its adaptors for FMUs add, s v a f, and one about the axis of rotation, phi w tau. Forces and torques are those of the
-//! bearing on the ring.
+//! Inside it is a terminal for each axis with the names that the Modelica Standard Library's mechanical flanges have
+//! and its adaptors for FMUs add, s v a f, and one about the axis of rotation, phi w tau. Forces and torques are those
+//! of the bearing on the ring.
 
 use anyhow::Result;
 use brinell::simulation::interface::table::{Causality, Variable};
@@ -65,15 +65,16 @@ pub fn terminals(table: &[Variable], interface: Interface) -> Result<String> {
     let terminals = [("shaft", "Inner"), ("housing", "Outer")].map(|(ring, which)| {
         let name = |member: &str| format!("{ring}.{member}");
         let members = |names: &[(&str, &str)]| -> Vec<_> {
-            let present = names.iter().filter(|(_, variable)| is_signal(&name(variable)));
-            present.map(|&(member, variable)| context! { member, variable => interface.shown(&name(variable)) }).collect()
+            let present = names.iter().filter(|(_, of_ring)| is_signal(&name(of_ring)));
+            present.map(|&(member, of_ring)| context! { member, variable => interface.shown(&name(of_ring)) }).collect()
         };
         let parts = FLANGES.iter().map(|&(part, kind, description, names)| {
             context! { name => part, kind, description, members => members(names) }
         });
         let parts: Vec<_> = parts.collect();
         let members = members(&MEMBERS.map(|member| (member, member)));
-        context! { ring, members, parts, description => format!("{which} ring: motion, loads and the bearing's force on it") }
+        let description = format!("{which} ring: motion, loads and the bearing's force on it");
+        context! { ring, members, parts, description }
     });
     let template = include_str!("../../../assets/terminalsAndIcons.xml");
     let version = interface.version.number();
