@@ -173,28 +173,34 @@ def variables():
     return found + [(name, "parameter", value) for name, value in parameters.items()]
 
 
-def shaft_description():
+def description(name, guid, what, variables):
+    """Model description of a unit compiled from `system/<name>.c`, its variables in the order of their references."""
     lines, outputs = [], []
-    for index, (name, causality, value) in enumerate(variables()):
+    for index, (variable, causality, value) in enumerate(variables):
         exact = {"input": "", "output": ' initial="calculated"', "parameter": ' initial="exact"'}[causality]
         kind = "fixed" if causality == "parameter" else "continuous"
         real = "<Real/>" if value is None else f'<Real start="{value!r}"/>'
         lines.append(
-            f'<ScalarVariable name="{name}" valueReference="{index}" causality="{causality}" variability="{kind}"'
+            f'<ScalarVariable name="{variable}" valueReference="{index}" causality="{causality}" variability="{kind}"'
             f"{exact}>{real}</ScalarVariable>"
         )
         if causality == "output":
             outputs.append(f'<Unknown index="{index + 1}"/>')
     listed = "".join(outputs)
     return f"""<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="shaft" guid="{{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}}"
-    description="A rigid shaft in two bearings" variableNamingConvention="structured">
-<CoSimulation modelIdentifier="shaft" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="true"
+<fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="{guid}"
+    description="{what}" variableNamingConvention="structured">
+<CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="true"
     canGetAndSetFMUstate="true"/>
 <ModelVariables>{"".join(lines)}</ModelVariables>
 <ModelStructure><Outputs>{listed}</Outputs><InitialUnknowns>{listed}</InitialUnknowns></ModelStructure>
 </fmiModelDescription>
 """.encode()
+
+
+def shaft_description():
+    guid = "{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}"
+    return description("shaft", guid, "A rigid shaft in two bearings", variables())
 
 
 def bindings(values):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A bearing and an elastic rotor, two FMUs wired in an SSP file: error over casing, algorithm, wiring and step, as Markdown.
 
-    python examples/system_of_fmus.py [--build] [--short] [-o target/examples]
+    python examples/system_of_fmus.py [--build] [--ssp 2.0] [--short] [-o target/examples]
 
 The rotor is `examples/system/rotor.c`, an overhung mass of 3 kg on a shaft of 1e7 N/m without a damper, compiled here
 with the C compiler that CC names, else `cc`. It rests in the bearing under half of its 500 N; at the start the other
@@ -11,7 +11,7 @@ the scene's own `shaft.mass_kg` and `shaft.stiffness_n_m`, no coupling at all.
 Its casing is the scene's, `free` on springs with a damper; or the same without a damper; or `fixed`: it stands.
 
 `--build` writes the systems of the free casing only, bearing and rotor in one `.ssp` each (System Structure and
-Parameterization 1.0), healthy and spalled, by what the rotor gets: `healthy-force.ssp`, `healthy-mean_force.ssp`,
+Parameterization 1.0, or 2.0 by `--ssp`), healthy and spalled, by what the rotor gets: `healthy-force.ssp`, `healthy-mean_force.ssp`,
 `healthy-next_mean_force.ssp`, and `spalled-…`.
 
 Masters that read them:
@@ -154,9 +154,15 @@ def structure(bearing, force, start):
 """
 
 
-def write_system(path, bearing, rotor, force, start):
+def in_version(structure, ssp):
+    """The same structure in a version of SSP: from 1.0 to 2.0 what these systems use has stayed."""
+    first, rest = structure.split("\n", 1)
+    return first + "\n" + rest.replace('version="1.0"', f'version="{ssp}"')
+
+
+def write_system(path, bearing, rotor, force, start, ssp="1.0"):
     with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
-        system.writestr("SystemStructure.ssd", structure(bearing.name, force, start))
+        system.writestr("SystemStructure.ssd", in_version(structure(bearing.name, force, start), ssp))
         system.write(bearing, f"resources/{bearing.name}")
         system.write(rotor, "resources/rotor.fmu")
     return path
@@ -315,8 +321,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", action="store_true", help="write the systems, run nothing")
     parser.add_argument("--short", action="store_true", help="two steps, 5 ms")
+    parser.add_argument("--ssp", choices=("1.0", "2.0"), default="1.0", help="version of the SSP files")
     parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
     options = parser.parse_args()
+    if options.ssp != "1.0" and not options.build:
+        parser.error("fmpy reads SSP 1.0 only: add --build")
     steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 5e-3 if options.short else 0.02
     casings = ["free"] if options.build or options.short else list(CASINGS)
@@ -331,7 +340,7 @@ def main():
         systems = {}
         for force in ("force", "mean_force", "next_mean_force"):
             path = options.output / f"{bearing.stem.removeprefix('system-')}-{force}.ssp"
-            systems[force] = write_system(path, bearing, rotor, force, exact[0])
+            systems[force] = write_system(path, bearing, rotor, force, exact[0], options.ssp)
             if options.build:
                 print(path)
         for whose, kind, handover, force, run in ALGORITHMS:

@@ -22,6 +22,8 @@ pub struct Cage {
 pub struct CageIrregularity {
     /// Angle of each element ahead of even spacing (rad), their sum 0.
     pub offsets: Vec<f64>,
+    /// Root mean square of offsets that were drawn with the seed (rad); `None` for those that were given.
+    pub drawn: Option<f64>,
     /// Root mean square of each element's stationary motion about its position (rad).
     pub jitter: f64,
     /// Root mean square of the slow part of slip, as a share of the cage's speed.
@@ -44,6 +46,14 @@ impl CageIrregularity {
         // One element alone has nothing to be uneven against.
         let scale = if present > 0.0 { rms / present } else { 0.0 };
         centred.iter().map(|x| scale * x).collect()
+    }
+
+    /// Takes another seed, and draws offsets anew that were drawn.
+    pub fn draw_with(&mut self, seed: u64) {
+        self.seed = seed;
+        if let Some(rms) = self.drawn {
+            self.offsets = Self::drawn_offsets(self.offsets.len(), rms, seed);
+        }
     }
 
     /// Offsets (rad) less their mean, so that their sum is 0.

@@ -1,6 +1,7 @@
 //! Accelerometers on the housing, and what they sit on.
 
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// Most accelerometers in a scene.
 pub const MOST_SENSORS: usize = 8;
@@ -52,6 +53,18 @@ impl Sensor {
     pub fn unit(&self) -> [f64; 2] {
         let [x, y, _] = self.unit_in_space();
         [x, y]
+    }
+
+    /// Its resonance on a mounting that stands (Hz), √(k/m)/2π.
+    pub fn resonance(&self) -> f64 {
+        (self.stiffness / self.mass).sqrt() / TAU
+    }
+
+    /// Moves its resonance to a frequency (Hz). Mass and damping ratio stay.
+    pub fn set_resonance(&mut self, frequency: f64) {
+        let ratio = frequency / self.resonance();
+        self.stiffness *= ratio * ratio;
+        self.damping *= ratio;
     }
 
     /// Turns it along a vector of any length above 0.

@@ -7,7 +7,7 @@ use brinell::scene::{CageIrregularity, Defect, DefectOn, Motion, Ring, Scene};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn irregular(mut scene: Scene, offsets: Vec<f64>, jitter: f64, wander: f64) -> Scene {
-    scene.cage.irregularity = Some(CageIrregularity { offsets, jitter, wander, seed: 42 });
+    scene.cage.irregularity = Some(CageIrregularity { offsets, drawn: None, jitter, wander, seed: 42 });
     scene
 }
 

@@ -1,5 +1,6 @@
 //! How bearings move: against laws of mechanics, closed forms and each other.
 
+mod between_runs;
 mod by_name;
 mod cage;
 mod clearance;

@@ -8,13 +8,13 @@
 //! |---|---|
 //! | `c_interface` | the C types that both versions share, callbacks, the logger, addresses of files |
 //! | `arguments` | how an argument from C becomes a slice or a string |
-//! | `both_versions` | the exported functions that differ by their names alone |
+//! | `both_versions` | what the functions of both versions share: those that differ by their names alone, variables of
+//! all types, model exchange |
 //! | `boundary` | how a call reaches its instance, and what becomes of panics and failures |
 //! | `instance` | one instance: model, clock, mode, handles, failures, saved states, references of FMI 3.0 |
 //! | `instantiation` | how an instance comes to be, or why it does not |
 //! | `intermediate` | steps that tell the host how far they have come, and return early |
 //! | `resources` | where the model lies, how it is read once for all instances, and what can be wrong with it |
-//! | `variables` | what reading and setting variables has in common in all types and both versions |
 //! | [`fmi2`], [`fmi3`] | the functions of FMI 2.0 and of FMI 3.0 |
 
 #![allow(unsafe_code)]
@@ -23,11 +23,9 @@ pub(crate) mod arguments;
 mod both_versions;
 pub(crate) mod boundary;
 mod c_interface;
-mod exchange;
 pub mod fmi2;
 pub mod fmi3;
 pub mod instance;
 pub(crate) mod instantiation;
 pub(crate) mod intermediate;
 pub mod resources;
-mod variables;

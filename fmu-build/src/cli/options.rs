@@ -39,8 +39,8 @@ pub struct Build {
     /// FMI 3.0 for hosts without arrays: a variable for each element, counters as Int64
     #[arg(long)]
     pub(super) scalars: bool,
-    /// Beside each FMU the inputs, outputs and options of a reference run, as the FMI cross-check wants them; an FMU of
-    /// FMI 3.0 holds them as well
+    /// Beside each FMU the inputs, outputs and options of a reference run, as the FMI cross-check wants them; the FMU
+    /// holds them as well, by the layered standard FMI-LS-REF
     #[arg(long)]
     pub(super) reference: bool,
     #[command(flatten)]

@@ -17,6 +17,8 @@ use super::template::render;
 use crate::shared::{Interface, Version, digits};
 use variables::variables;
 
+/// Axes, angles and signs.
+const SIGNS: &str = include_str!("../../../docs/figures/signs.svg");
 const PAGE: &str = include_str!("../../assets/documentation.html");
 
 /// Writes the page.
@@ -33,6 +35,7 @@ pub fn write(model: &Model, interface: impl Into<Interface>) -> Result<String> {
         program => env!("CARGO_PKG_VERSION"),
         fmi => version.number(),
         facts => facts(scene),
+        signs => SIGNS,
         remarks => remarks(&model.scene_text, scene).map(|remark| remark.to_string()).collect::<Vec<_>>(),
         hosted => scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host,
         derivative => match version {

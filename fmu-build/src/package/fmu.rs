@@ -28,13 +28,11 @@ pub fn pack(model: &Model, library: &Library, interface: impl Into<Interface>) -
     // FMI 2.0.4 has taken the terminals of 3.0 over.
     archive.add("terminalsAndIcons/terminalsAndIcons.xml", terminals(model.simulation.table(), interface)?)?;
     archive.add("terminalsAndIcons/icon.png", ICON)?;
-    match version {
-        Version::Fmi2 => archive.add("model.png", ICON)?,
-        Version::Fmi3 => {
-            if let Some(reference) = &model.reference {
-                reference.add_to(&mut archive)?;
-            }
-        }
+    if version == Version::Fmi2 {
+        archive.add("model.png", ICON)?;
+    }
+    if let Some(reference) = &model.reference {
+        reference.add_to(&mut archive)?;
     }
     for binary in library.binaries() {
         let platform = &binary.platform;

@@ -1,8 +1,9 @@
 //! Reference results: what an importer is to find when it runs an FMU, and by which inputs.
 //!
 //! Three files after the FMI cross-check rules, version 4.1 (modelica/fmi-cross-check, sections 9.1.4 and 10):
-//! `<name>_ref.csv`, `<name>_in.csv` and `<name>_ref.opt`. An FMU of FMI 3.0 holds them as well, described by the
-//! layered standard FMI-LS-REF 1.0.0-alpha.1 in `extra/org.fmi-standard.fmi-ls-ref`.
+//! `<name>_ref.csv`, `<name>_in.csv` and `<name>_ref.opt`. The FMU holds them as well, described by the layered
+//! standard FMI-LS-REF 1.0.0-beta.1 in `extra/org.fmi-standard.fmi-ls-ref`, with the experiment, `<name>.exp`, in the
+//! Modelica Association's draft of an experiments format.
 //!
 //! The run is the scene's default experiment. Inputs stand at their start values, except of a shaft that hosts move: at
 //! its start value it would hang in the clearance and touch nothing. It goes down through the clearance until the
@@ -62,6 +63,8 @@ pub struct Reference {
     inputs: Option<String>,
     /// Times, communication step and tolerance.
     options: String,
+    /// The same and the files' names, as XML.
+    experiment: String,
 }
 
 impl Reference {
@@ -86,7 +89,15 @@ impl Reference {
         for text in [Some(&results), inputs.as_ref()].into_iter().flatten() {
             ensure!(text.len() <= LARGEST, "reference file of {} bytes: at most {LARGEST} are allowed", text.len());
         }
-        Ok(Self { name: scene.name.clone(), results, inputs, options })
+        let values = context! {
+            name => &scene.name,
+            stop => format!("{stop:?}"),
+            step => format!("{:?}", grid.step),
+            tolerance => format!("{:?}", scene.tolerance),
+            inputs => inputs.is_some(),
+        };
+        let experiment = render("experiment", include_str!("../../assets/experiments.xml"), values)?;
+        Ok(Self { name: scene.name.clone(), results, inputs, options, experiment })
     }
 
     /// The files: name, type, role in the layered standard, what it is, text.
@@ -117,11 +128,12 @@ impl Reference {
             .collect()
     }
 
-    /// Puts the files into an FMU of FMI 3.0, with their manifest.
+    /// Puts the files into an FMU, with the experiment that they belong to and the manifest.
     pub(crate) fn add_to(&self, archive: &mut Archive) -> Result<()> {
         for (name, _, text) in self.files() {
             archive.add(format!("{FOLDER}/{name}"), text)?;
         }
+        archive.add(format!("{FOLDER}/{}.exp", self.name), self.experiment.as_str())?;
         archive.add(format!("{FOLDER}/fmi-ls-manifest.xml"), self.manifest()?)?;
         Ok(archive.add(
             "documentation/fmi-ls-ref.txt",
@@ -133,8 +145,14 @@ impl Reference {
 
     fn manifest(&self) -> Result<String> {
         let files = self.files().into_iter();
-        let files: Vec<_> =
+        let mut files: Vec<_> =
             files.map(|(name, [kind, role, description], _)| context! { name, kind, role, description }).collect();
+        files.push(context! {
+            name => format!("{}.exp", self.name),
+            kind => "application/x-ma-hs-experiments",
+            role => "experiment/smoke-test",
+            description => "The default experiment with its inputs and outputs",
+        });
         render("fmi-ls-manifest.xml", include_str!("../../assets/fmi-ls-manifest.xml"), context! { files })
     }
 }

@@ -37,10 +37,13 @@ fn the_cross_check_finds_the_reference_results_of_every_shipped_scene() {
 }
 
 #[test]
-fn an_fmu_of_fmi_3_holds_its_reference_results_with_their_manifest() {
-    let folder = common::folder("reference3");
-    build(&["er16k-tb1", "6205-hosted", "--fmi", "3"], &folder);
-    println!("{}", common::run_script("reference3.py", [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")]));
+fn an_fmu_holds_its_reference_results_with_their_manifest_and_experiment() {
+    for version in ["2", "3"] {
+        let folder = common::folder(&format!("reference-in-{version}"));
+        build(&["er16k-tb1", "6205-hosted", "--fmi", version], &folder);
+        let fmus = [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")];
+        println!("{}", common::run_script("reference_inside.py", fmus));
+    }
 }
 
 #[test]

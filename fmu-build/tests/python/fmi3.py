@@ -23,9 +23,14 @@ def terminals(fmu):
         assert archive.read("terminalsAndIcons/icon.png").startswith(b"\x89PNG")
     etree.XMLSchema(etree.parse(str(SCHEMA))).assertValid(tree)
     names = {v.name for v in fmpy.read_model_description(fmu).modelVariables}
-    found = {terminal.get("name"): terminal for terminal in tree.iter("Terminal")}
+    found = {terminal.get("name"): terminal for terminal in tree.find("Terminals")}
     assert set(found) == {"shaft", "housing"}
     for ring, terminal in found.items():
+        flanges = {part.get("name"): [member.get("memberName") for member in part] for part in terminal.iter("Terminal")}
+        assert flanges["x"] == flanges["y"] == (["s", "v", "a", "f"] if f"{ring}.x" in names else ["f"]), flanges
+        within = [member.get("variableName") for member in terminal.iter("TerminalMemberVariable")]
+        assert set(within) <= names, set(within) - names
+        terminal = terminal.findall("TerminalMemberVariable")
         members = [member.get("variableName") for member in terminal]
         assert f"{ring}.force.x" in members and f"{ring}.force.y" in members
         assert set(members) <= names, set(members) - names

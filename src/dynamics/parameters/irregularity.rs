@@ -288,7 +288,7 @@ mod tests {
     use super::*;
 
     fn irregular(jitter: f64, wander: f64, seed: u64) -> Irregularity {
-        let cage = CageIrregularity { offsets: vec![], jitter, wander, seed };
+        let cage = CageIrregularity { offsets: vec![], drawn: None, jitter, wander, seed };
         Irregularity::new(&cage, 9, -1.2).unwrap()
     }
 

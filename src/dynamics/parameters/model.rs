@@ -10,7 +10,7 @@ use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::spatial::Space;
 use super::supports::{SensorModes, Supports};
 use crate::contact::law::{CompliantContact, smooth_laws};
-use crate::contact::near_defect::LoveSolvers;
+use crate::contact::near_defect::{LoveSolvers, NearDefect};
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
 use crate::numerics::number::Scalar;
@@ -155,6 +155,11 @@ impl Model {
     /// Whether contacts near any defect are solved on grids inside the step.
     pub fn solves_grids(&self) -> bool {
         self.all_defects().flat_map(Defects::iter).any(|defect| defect.surface.solves_grids())
+    }
+
+    /// Whether elements roll over all defects as rigid ones, law `hertz`.
+    pub fn rolls_rigidly(&self) -> bool {
+        self.all_defects().flat_map(Defects::iter).all(|defect| matches!(defect.surface, NearDefect::Hertz(_)))
     }
 
     /// Whether the model has all of these cells.

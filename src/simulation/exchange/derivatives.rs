@@ -35,27 +35,17 @@ impl Simulation {
         let (of_table, of_states): (Vec<_>, Vec<_>) =
             knowns.iter().copied().zip(seed.iter().copied()).partition(|(known, _)| *known < rows);
         let (inputs, weights): (Vec<u32>, Vec<f64>) = of_table.into_iter().unzip();
-        for &input in &inputs {
-            if self.interface.quantities[input as usize].as_input().is_none()
-                || input as usize >= self.interface.inputs.count
-            {
-                return Err(VariableError::NotAKnown { name: self.variable(input)?.name.clone() }.into());
-            }
-        }
         let outputs: Vec<u32> = unknowns.iter().copied().filter(|unknown| *unknown < rows).collect();
         for &output in &outputs {
             self.interface.unknown(output)?;
         }
-        self.refresh()?;
-        self.present.evaluation.forces.shortcuts.forget();
-        self.along_inputs(&inputs, &weights);
+        let acceleration = self.along_knowns(&inputs, &weights)?;
         for (known, weight) in of_states {
             match self.exchange_role(known) {
                 Some(ExchangeRole::State(number)) => self.along_state(places[number], weight),
                 _ => return Err(self.not_exchanged(known, false)),
             }
         }
-        let acceleration = self.present.outputs(&self.run).acceleration(RingName::Housing);
         self.finish_change(&outputs, acceleration);
         for (value, &unknown) in values.iter_mut().zip(unknowns) {
             *value = if unknown < rows {

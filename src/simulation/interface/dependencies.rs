@@ -99,13 +99,14 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
 /// Whether an output depends on an input or a parameter in initialization mode.
 fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
     match output {
-        Q::CageAngle | Q::ElementAngle(_) => known == Q::Parameter(Parameter::CageInitialAngle),
+        Q::CageAngle => known == Q::Parameter(Parameter::CageInitialAngle),
+        Q::ElementAngle(_) => matches!(known, Q::Parameter(Parameter::CageInitialAngle | Parameter::CageSeed)),
         Q::RingAngle(ring) => known == Q::Parameter(Parameter::RingInitialAngle(ring)),
         Q::ElementSpinAngle(j) => match known {
             Q::Parameter(Parameter::DefectAngle(index)) => scene.first_defect_of(j) == Some(index),
             _ => false,
         },
-        Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip)),
+        Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip | Parameter::CageSeed)),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
         Q::Position(..)
@@ -140,8 +141,9 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
 /// Whether the static equilibrium depends on a parameter.
 pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
     match parameter {
-        // Tolerance and recorder are of steps; masses and dampers of rings matter in motion.
-        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RepeatedInputs => false,
+        // Tolerance and recorder are of steps; masses and dampers of rings, and sensors, matter in motion.
+        Parameter::Tolerance | Parameter::RecorderFolder | Parameter::RecorderRate => false,
+        Parameter::RepeatedInputs | Parameter::SensorResonance(_) => false,
         Parameter::RingMass(_) | Parameter::RingDamping(_) | Parameter::AxialDamping(_) => false,
         Parameter::TransverseInertia | Parameter::PolarInertia | Parameter::TiltDamping => false,
         Parameter::RadialClearance
@@ -158,6 +160,10 @@ pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
         | Parameter::RingInitialAngle(_)
         | Parameter::SpinSlip
         | Parameter::DefectAngle(_)
+        | Parameter::SpallLength(_)
+        | Parameter::SpallDepth(_)
+        | Parameter::CageSeed
+        | Parameter::FilmViscosity
         | Parameter::RingStiffness(_) => true,
     }
 }

@@ -117,6 +117,12 @@ pub enum Parameter {
     Tolerance,
     RecorderFolder,
     RepeatedInputs,
+    SpallLength(usize),
+    SpallDepth(usize),
+    CageSeed,
+    FilmViscosity,
+    SensorResonance(usize),
+    RecorderRate,
 }
 
 impl Quantity {

@@ -123,16 +123,17 @@ impl Interface {
         started: bool,
     ) -> Result<(), VariableError> {
         let variable = self.variable(reference)?;
-        let items = match variable.kind {
-            Kind::Enumeration { items, .. } => items,
+        let (min, max) = match variable.kind {
+            Kind::Enumeration { items, .. } => (1, items.len() as i32),
+            Kind::Whole { .. } => (0, i32::MAX),
             Kind::Integer => return Err(not_settable(variable, COMPUTED)),
             _ => return Err(wrong_type(variable, "Integer")),
         };
         if started {
             return Err(not_settable(variable, FIXED));
         }
-        if value < 1 || value as usize > items.len() {
-            return Err(out_of_range(variable, value.into(), 1.0, items.len() as f64));
+        if value < min || value > max {
+            return Err(out_of_range(variable, value.into(), min.into(), max.into()));
         }
         Ok(())
     }

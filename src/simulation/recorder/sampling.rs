@@ -45,6 +45,8 @@ pub struct Recorder {
     rate: f64,
     /// Time between two samples (s).
     interval: f64,
+    /// Rate that shows the fastest oscillation (Hz).
+    fastest: f64,
     /// `None` where every sample is a row.
     decimation: Option<Decimation>,
     /// References and quantities of the recorded outputs, those that are filtered first.
@@ -77,12 +79,9 @@ impl Recorder {
     /// The recorder that a scene asks for, if it does.
     pub(in crate::simulation) fn of(scene: &Scene, table: &[Variable], quantities: &[Quantity]) -> Option<Self> {
         let scene::Recorder { rate, filter } = scene.recorder?;
+        let fastest = (OVERSAMPLING * element_frequency(scene)).min(HIGHEST_RATE);
         let decimation = match filter {
-            RecorderFilter::LinearPhase => {
-                let fastest = (OVERSAMPLING * element_frequency(scene)).min(HIGHEST_RATE);
-                // No filter without at least two samples for a row.
-                Some(Decimation::new((fastest / rate).ceil().max(2.0) as u64))
-            }
+            RecorderFilter::LinearPhase => Some(decimation(fastest, rate)),
             RecorderFilter::None => None,
         };
         let recorded = |as_wanted: Recorded| {
@@ -92,10 +91,10 @@ impl Recorder {
         };
         let signals: Vec<_> = recorded(Recorded::Vibration).chain(recorded(Recorded::Instant)).collect();
         let filtered = if decimation.is_some() { recorded(Recorded::Vibration).count() } else { 0 };
-        let per_row = decimation.as_ref().map_or(1, Decimation::factor);
         Some(Self {
             rate,
-            interval: 1.0 / (rate * per_row as f64),
+            interval: interval(rate, decimation.as_ref()),
+            fastest,
             decimation,
             signals,
             sample: vec![0.0; filtered],
@@ -135,6 +134,17 @@ impl Recorder {
     /// Time between two samples (s).
     pub(in crate::simulation) fn interval(&self) -> f64 {
         self.interval
+    }
+
+    /// Records so many rows per second (Hz) from now on; what was sampled at another rate is dropped.
+    pub(in crate::simulation) fn set_rate(&mut self, rate: f64, due: &Due) {
+        if rate == self.rate {
+            return;
+        }
+        self.rate = rate;
+        self.decimation = self.decimation.as_ref().map(|_| decimation(self.fastest, rate));
+        self.interval = interval(rate, self.decimation.as_ref());
+        self.forget(due);
     }
 
     /// Length of the rows under way.
@@ -230,6 +240,17 @@ impl Recorder {
         due.delay += self.interval;
         due.taken += 1;
     }
+}
+
+/// The filter for so many rows per second, where the fastest oscillation asks for so many samples (Hz).
+fn decimation(fastest: f64, rate: f64) -> Decimation {
+    // No filter without at least two samples for a row.
+    Decimation::new((fastest / rate).ceil().max(2.0) as u64)
+}
+
+/// Time between two samples (s).
+fn interval(rate: f64, decimation: Option<&Decimation>) -> f64 {
+    1.0 / (rate * decimation.map_or(1, Decimation::factor) as f64)
 }
 
 /// Puts the values of signals at an instant into as many values.

@@ -296,6 +296,10 @@ impl Simulation {
         }
         let Self { setup, interface, run, present, .. } = self;
         run.model = setup.model(&interface.quantities, &run.state.reals, &run.state.integers)?;
+        let rate = setup::parameter(&interface.quantities, &run.state.reals, Parameter::RecorderRate);
+        if let Some((recorder, rate)) = run.recorder.as_mut().zip(rate) {
+            recorder.set_rate(rate, &run.state.progress.due);
+        }
         for forces in [&mut present.evaluation.forces, &mut run.workspace.forces] {
             forces.shortcuts = Shortcuts::of(&run.model);
         }

@@ -136,6 +136,7 @@ impl State {
             Kind::Real { min, max, .. } if variable.causality == Causality::Parameter => {
                 min.is_none_or(|min| value >= min) && max.is_none_or(|max| value <= max)
             }
+            Kind::Whole { .. } => integer >= 0,
             Kind::Enumeration { items, .. } => integer >= 1 && integer as usize <= items.len(),
             _ => true,
         }

@@ -20,6 +20,7 @@ impl Simulation {
             Kind::Real { .. } => {}
             Kind::Integer => return not_real("Integer", "counts"),
             Kind::Enumeration { .. } => return not_real("Enumeration", "integers"),
+            Kind::Whole { .. } => return not_real("Integer", "integers"),
             Kind::Text { .. } => return not_real("String", "strings"),
         }
         let mut value = [0.0];
@@ -39,6 +40,7 @@ impl Simulation {
             Kind::Real { .. } => self.set_reals(&[reference], &[value]),
             Kind::Integer => Err(not_settable(variable, COMPUTED)),
             Kind::Enumeration { .. } => not_real("Enumeration", "set_integers"),
+            Kind::Whole { .. } => not_real("Integer", "set_integers"),
             Kind::Text { .. } => not_real("String", "set_strings"),
         }
     }
@@ -100,7 +102,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets integers (the enumeration `contact.law`); all or none; before `initialize`.
+    /// Sets integers (enumerations and `cage.seed`); all or none; before `initialize`.
     pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), VariableError> {
         as_many(references.len(), values.len())?;
         let state = &mut self.run.state;
@@ -119,7 +121,7 @@ impl Simulation {
         as_many(references.len(), values.len())?;
         for &reference in references {
             let variable = self.variable(reference)?;
-            if !matches!(variable.kind, Kind::Integer | Kind::Enumeration { .. }) {
+            if !matches!(variable.kind, Kind::Integer | Kind::Whole { .. } | Kind::Enumeration { .. }) {
                 return Err(wrong_type(variable, "Integer").into());
             }
         }

@@ -1,5 +1,6 @@
 //! From a scene and the surfaces of its defects to the parameters of its equations.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
@@ -72,7 +73,14 @@ impl Setup {
         integers: &[i32],
     ) -> Result<Model, SimulationError> {
         let scene = with_parameters(&self.scene, quantities, reals, integers)?;
-        build_model(&scene, &self.surfaces, self.map.as_ref())
+        let mut surfaces = Cow::Borrowed(&*self.surfaces);
+        for (index, (defect, before)) in scene.defects.iter().zip(&self.scene.defects).enumerate() {
+            if defect.shape != before.shape {
+                // Only a spall's sizes can be set, and it has no profile.
+                surfaces.to_mut()[index] = Surface::load(defect, None, &self.scene.bearing)?;
+            }
+        }
+        build_model(&scene, &surfaces, self.map.as_ref())
     }
 
     /// Refuses oil films that are too thick at an instant.

@@ -1,6 +1,6 @@
 //! Parameters that a host may set: their start values, and the scene with the values set.
 
-use crate::scene::{ContactLaw, Damping, RepeatedInputs, Ring, Scene};
+use crate::scene::{ContactLaw, Damping, DefectShape, RepeatedInputs, Ring, Scene};
 use crate::simulation::SimulationError;
 use crate::simulation::interface::table::{Kind, Variable};
 use crate::simulation::interface::{Parameter, Quantity, RingName};
@@ -11,7 +11,7 @@ pub(in crate::simulation) fn start_values(table: &[Variable]) -> (Vec<f64>, Vec<
         .iter()
         .map(|variable| match variable.kind {
             Kind::Real { start, .. } => (start.unwrap_or(0.0), 0),
-            Kind::Enumeration { start, .. } => (0.0, start),
+            Kind::Enumeration { start, .. } | Kind::Whole { start } => (0.0, start),
             Kind::Integer | Kind::Text { .. } => (0.0, 0),
         })
         .unzip()
@@ -64,7 +64,17 @@ pub(in crate::simulation) fn with_parameters(
             Parameter::RingDamping(ring) => ring_of(&mut changed, ring).damping = value,
             Parameter::RingStiffness(ring) => ring_of(&mut changed, ring).stiffness = value,
             Parameter::Tolerance => changed.tolerance = value,
-            // The recorder is no part of the model.
+            Parameter::SpallLength(k) => sizes_of(&mut changed, k).for_each(|[length, _]| *length = value),
+            Parameter::SpallDepth(k) => sizes_of(&mut changed, k).for_each(|[_, depth]| *depth = value),
+            Parameter::CageSeed => {
+                // Numbers below 0 were refused when they were set.
+                let seed = integer.unsigned_abs().into();
+                changed.cage.irregularity.iter_mut().for_each(|cage| cage.draw_with(seed));
+            }
+            Parameter::FilmViscosity => changed.film.iter_mut().for_each(|film| film.viscosity = value),
+            Parameter::SensorResonance(index) => changed.sensors[index].set_resonance(value),
+            Parameter::RecorderRate => changed.recorder.iter_mut().for_each(|recorder| recorder.rate = value),
+            // No part of a scene.
             Parameter::RecorderFolder => {}
             Parameter::RepeatedInputs => {
                 changed.repeated_inputs = RepeatedInputs::numbered(integer).unwrap_or(changed.repeated_inputs);
@@ -73,6 +83,15 @@ pub(in crate::simulation) fn with_parameters(
     }
     changed.check()?;
     Ok(changed)
+}
+
+/// Length and depth of a defect, if it is a spall.
+fn sizes_of(scene: &mut Scene, defect: usize) -> impl Iterator<Item = [&mut f64; 2]> {
+    let sizes = match &mut scene.defects[defect].shape {
+        DefectShape::Spall { length, depth, .. } => Some([length, depth]),
+        DefectShape::Profile(_) => None,
+    };
+    sizes.into_iter()
 }
 
 fn ring_of(scene: &mut Scene, ring: RingName) -> &mut Ring {

@@ -102,7 +102,7 @@ mod tests {
         let scene = Scene::builder(bearing)
             .shaft_load([0.0, -49.0])
             .spall(-FRAC_PI_2, 2e-3, 15e-6)
-            .irregularity(CageIrregularity { offsets, jitter: jitter * spacing, wander, seed: 1 })
+            .irregularity(CageIrregularity { offsets, drawn: None, jitter: jitter * spacing, wander, seed: 1 })
             .build()
             .unwrap();
         let assembly = Assembly::new(&scene, None, None).unwrap();

@@ -6,11 +6,11 @@
 use super::functions::ALWAYS;
 use super::types::{Boolean, Component, EventInfo, FALSE, Real, Status};
 use crate::arguments::{array, array_mut, store};
-use crate::exchange::{AT_ANY_TIME, Done, Instance};
+use crate::both_versions::exchange::{AT_ANY_TIME, Done, Instance};
 use crate::instance::Mode::{ContinuousTime, Event};
 use crate::instance::{PerItem, modes};
 
-crate::exchange::functions! {
+crate::both_versions::exchange::functions! {
     Fmi2, Component;
     /// `fmi2EnterEventMode`.
     fmi2EnterEventMode() modes([Event, ContinuousTime]), |instance: Instance, function| -> Done {

@@ -6,8 +6,8 @@
 
 use super::functions;
 use super::types::{Boolean, Component, FmiString, Integer, Real, Status, ValueReference};
+use crate::both_versions::variables::{Array, get, get_strings, none, set, set_strings};
 use crate::instance::{Failure, Instance, finite};
-use crate::variables::{Array, get, get_strings, none, set, set_strings};
 
 /// Refuses any variable, for there is none of this type.
 fn no_boolean(instance: &Instance, references: &[ValueReference]) -> Result<(), Failure> {

@@ -5,13 +5,13 @@
 use super::functions::ALWAYS;
 use super::types::{Bool, FALSE, Instance as Handle, Status};
 use crate::arguments::{array, array_mut, store};
-use crate::exchange::{AT_ANY_TIME, Done, Instance};
+use crate::both_versions::exchange::{AT_ANY_TIME, Done, Instance};
 use crate::instance::Mode::{ContinuousTime, Error, Event, Terminated};
 use crate::instance::{Mode, Modes, PerItem, modes};
 
 const COUNTED: Modes = modes([Mode::Instantiated, Mode::Initialization, Event, ContinuousTime, Terminated, Error]);
 
-crate::exchange::functions! {
+crate::both_versions::exchange::functions! {
     Fmi3, Handle;
     /// `fmi3EnterEventMode`.
     fmi3EnterEventMode() modes([ContinuousTime]), |instance: Instance, function| -> Done {

@@ -1,5 +1,5 @@
-//! The exported functions that read and set variables: Float64, Int64 for enumerations, UInt64 for counters, String. Of
-//! the other types there are none, and only a call for no variables succeeds.
+//! The exported functions that read and set variables: Float64, Int64 for enumerations and seeds, UInt64 for counters,
+//! String. Of the other types there are none, and only a call for no variables succeeds.
 //!
 //! A call sets all of its variables or none.
 
@@ -8,8 +8,8 @@
 use super::functions;
 use super::types::{Binary, Bool, FmiString, Instance, Status, ValueReference};
 use super::values::{self, addressing, check_kind, check_scalars, may_read, may_set, wrong_type};
+use crate::both_versions::variables::{Array, get, get_strings, none, set, set_strings};
 use crate::instance::{self, Failure};
-use crate::variables::{Array, get, get_strings, none, set, set_strings};
 use brinell::simulation::VariableError;
 use brinell::simulation::interface::table::Kind;
 
@@ -43,11 +43,11 @@ functions! {
         may_read(instance, references)?;
         values::read(instance, references, values)
     };
-    /// `fmi3GetInt64`: enumerations, and in an FMU without arrays counters.
+    /// `fmi3GetInt64`: enumerations, seeds, and in an FMU without arrays counters.
     get fmi3GetInt64(*mut i64) GET_INT64 |instance, references, values| {
         may_read(instance, references)?;
         let signed = addressing(instance)?.counts_signed();
-        check_kind(instance, references, "Int64", if signed { is_whole } else { is_enumeration })?;
+        check_kind(instance, references, "Int64", if signed { is_whole } else { is_number })?;
         check_scalars(instance, references, values.len())?;
         for (value, reference) in values.iter_mut().zip(references) {
             let reference = std::slice::from_ref(reference);
@@ -83,13 +83,13 @@ functions! {
         may_set(instance, references)?;
         values::set(instance, references, values)
     };
-    /// `fmi3SetInt64`: enumerations.
+    /// `fmi3SetInt64`: enumerations and seeds.
     set fmi3SetInt64(*const i64) SET_INT64 |instance, references, values| {
         may_set(instance, references)?;
-        check_kind(instance, references, "Int64", is_enumeration)?;
+        check_kind(instance, references, "Int64", is_number)?;
         check_scalars(instance, references, values.len())?;
         let numbers = references.iter().zip(values).map(|(&reference, &value)| {
-            // What an i32 cannot hold is no item of an enumeration.
+            // What an i32 cannot hold is no number of any of them.
             i32::try_from(value).map_err(|_| out_of_range(&instance.simulation, reference, value))
         });
         let numbers: Vec<i32> = numbers.collect::<Result<_, _>>()?;
@@ -166,8 +166,8 @@ fn none_of(instance: &instance::Instance, references: &[ValueReference], wanted:
     }
 }
 
-fn is_enumeration(kind: &Kind) -> bool {
-    matches!(kind, Kind::Enumeration { .. })
+fn is_number(kind: &Kind) -> bool {
+    matches!(kind, Kind::Enumeration { .. } | Kind::Whole { .. })
 }
 
 fn is_counter(kind: &Kind) -> bool {
@@ -175,7 +175,7 @@ fn is_counter(kind: &Kind) -> bool {
 }
 
 fn is_whole(kind: &Kind) -> bool {
-    is_enumeration(kind) || is_counter(kind)
+    is_number(kind) || is_counter(kind)
 }
 
 fn is_none(_: &Kind) -> bool {
@@ -189,8 +189,11 @@ fn is_text(kind: &Kind) -> bool {
 fn out_of_range(simulation: &brinell::simulation::Simulation, reference: u32, value: i64) -> VariableError {
     match simulation.variable(reference) {
         Ok(variable) => {
-            let items = if let Kind::Enumeration { items, .. } = variable.kind { items.len() } else { 0 };
-            VariableError::OutOfRange { name: variable.name.clone(), value: value as f64, min: 1.0, max: items as f64 }
+            let [min, max] = match variable.kind {
+                Kind::Enumeration { items, .. } => [1.0, items.len() as f64],
+                _ => [0.0, i32::MAX.into()],
+            };
+            VariableError::OutOfRange { name: variable.name.clone(), value: value as f64, min, max }
         }
         Err(error) => error,
     }

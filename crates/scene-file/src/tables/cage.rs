@@ -90,6 +90,7 @@ impl CageTable {
             }
         };
         let is_even = offsets.iter().all(|&offset| offset == 0.0) && jitter == 0.0 && wander == 0.0;
-        Ok((!is_even).then_some(CageIrregularity { offsets, jitter, wander, seed }))
+        let drawn = self.spacing_deg.is_none().then_some(spacing);
+        Ok((!is_even).then_some(CageIrregularity { offsets, drawn, jitter, wander, seed }))
     }
 }

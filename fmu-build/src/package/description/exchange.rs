@@ -18,8 +18,7 @@ pub(super) fn variables(exchanged: &[ExchangeVariable], interface: Interface) ->
     let fmi2 = interface.version == Version::Fmi2;
     let is_listed = |row: &&ExchangeVariable| !fmi2 || !matches!(row.role, ExchangeRole::Indicator(_));
     let shown = |row: &ExchangeVariable| {
-        let mut attributes = vec![("unit", units::name(row.unit).to_owned())];
-        attributes.extend(units::display_unit(row.unit).map(|shown| ("displayUnit", shown.name.to_owned())));
+        let mut attributes = units::attributes(row.unit, row.nominal);
         attributes.push(("nominal", format!("{:?}", row.nominal)));
         if let ExchangeRole::Derivative(number) = row.role {
             attributes.push(("derivative", exchanged[number].reference.to_string()));

@@ -82,8 +82,8 @@ fn unit_definitions(table: &[Variable], exchanged: &[ExchangeVariable]) -> Vec<V
         table.iter().filter_map(unit).chain(exchanged.iter().map(|variable| variable.unit)).collect();
     let definition = |unit| {
         let exponents: Vec<_> = units::base_units(unit).into_iter().filter(|(_, exponent)| *exponent != 0).collect();
-        let shown = units::display_unit(unit).map(|shown| (shown.name, number(shown.factor)));
-        context! { name => units::name(unit), exponents, shown }
+        let shown: Vec<_> = units::display_units(unit).iter().map(|shown| (shown.name, number(shown.factor))).collect();
+        context! { name => units::name(unit), quantity => units::quantity(unit), exponents, shown }
     };
     used.into_iter().map(definition).collect()
 }
@@ -109,19 +109,25 @@ pub(crate) struct Listed {
 /// The variables as the version has them.
 pub(crate) fn listed(simulation: &Simulation, interface: Interface) -> Vec<Listed> {
     let table = simulation.table().iter();
-    let named = |row: &Variable| Variable { name: interface.shown(&row.name), ..row.clone() };
+    // A host that shows structured names as a tree has groups; of flat ones the description begins with the group.
+    let described = |row: &Variable, text: &str| match row.name.split(['.', '[']).next() {
+        Some(group) if interface.names == Names::Flat => format!("{group}: {text}"),
+        _ => text.to_owned(),
+    };
+    let named = |row: &Variable, text: &str| Variable {
+        name: interface.shown(&row.name),
+        description: described(row, text),
+        ..row.clone()
+    };
     if interface.version == Version::Fmi2 {
-        return table.map(|row| Listed { variable: named(row), elements: None }).collect();
+        return table.map(|row| Listed { variable: named(row, &row.description), elements: None }).collect();
     }
     let arrays = if interface.scalars { Vec::new() } else { simulation.arrays() };
     let shown = |row: &Variable| match arrays.iter().find(|array| array.rows.contains(&row.reference)) {
-        None => {
-            let variable = Variable { description: row.meaning().to_owned(), ..named(row) };
-            Some(Listed { variable, elements: None })
-        }
+        None => Some(Listed { variable: named(row, row.meaning()), elements: None }),
         Some(array) if array.rows[0] == row.reference => {
             let (name, description) = of_all_elements(row);
-            let name = interface.shown(&name);
+            let (name, description) = (interface.shown(&name), described(row, &description));
             Some(Listed { variable: Variable { name, description, ..row.clone() }, elements: Some(array.rows.len()) })
         }
         Some(_) => None,
@@ -134,8 +140,10 @@ fn variable(listed: &Listed, interface: Interface) -> Value {
     let (fmi2, mut attributes, mut text) = (interface.version == Version::Fmi2, Vec::new(), None);
     match &variable.kind {
         Kind::Real { unit, start, min, max, nominal } => {
-            attributes.push(("unit", units::name(*unit).to_owned()));
-            attributes.extend(units::display_unit(*unit).map(|shown| ("displayUnit", shown.name.to_owned())));
+            // A moment per displacement has the unit of a force and is none.
+            let is_named = *unit != Unit::Newton || !variable.name.contains("stiffness");
+            attributes
+                .extend(units::attributes(*unit, *nominal).into_iter().filter(|(key, _)| is_named || *key == "unit"));
             let numbers = [("min", *min), ("max", *max), ("nominal", Some(*nominal)), ("start", *start)];
             attributes.extend(numbers.into_iter().filter_map(|(key, value)| Some((key, number(value?)))));
         }
@@ -146,13 +154,17 @@ fn variable(listed: &Listed, interface: Interface) -> Value {
             ("max", items.len().to_string()),
             ("start", start.to_string()),
         ]),
+        Kind::Whole { start } => {
+            attributes.extend([("min", "0".to_owned()), ("max", i32::MAX.to_string()), ("start", start.to_string())])
+        }
         Kind::Text { start } if fmi2 => attributes.push(("start", start.clone())),
         Kind::Text { start } => text = Some(start),
     }
     context! {
         type => match &variable.kind {
             Kind::Real { .. } => if fmi2 { "Real" } else { "Float64" },
-            Kind::Integer if fmi2 => "Integer",
+            Kind::Integer | Kind::Whole { .. } if fmi2 => "Integer",
+            Kind::Whole { .. } => "Int64",
             Kind::Integer => if interface.scalars { "Int64" } else { "UInt64" },
             Kind::Enumeration { .. } => "Enumeration",
             Kind::Text { .. } => "String",

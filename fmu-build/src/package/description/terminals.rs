@@ -5,6 +5,10 @@
 //! speed and torque about the axis. All of it is `signal`: the standard keeps `inflow` and `outflow` for scalars that
 //! sum to zero, and says that forces in space are none. Matching is by member name, and a host may leave out what it
 //! has no use for (`bus`): accelerations are optional, and either of two forces goes to the ring's body.
+//!
+//! Inside it is a terminal for each axis with the names that the Modelica Standard Library's mechanical flanges have
+//! and its adaptors for FMUs add, s v a f, and one about the axis of rotation, phi w tau. Forces and torques are those
+//! of the bearing on the ring.
 
 use anyhow::Result;
 use brinell::simulation::interface::table::{Causality, Variable};
@@ -34,6 +38,20 @@ const MEMBERS: [&str; 17] = [
     "next_mean_force.y",
 ];
 
+/// A terminal inside that of a ring, as a flange of the Modelica Standard Library: name, kind, description, and its
+/// members with the ring's variable for each.
+type Flange = (&'static str, &'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+const FLANGES: [Flange; 3] = [
+    ("x", TRANSLATIONAL, ALONG, &[("s", "x"), ("v", "vx"), ("a", "ax"), ("f", "force.x")]),
+    ("y", TRANSLATIONAL, ALONG, &[("s", "y"), ("v", "vy"), ("a", "ay"), ("f", "force.y")]),
+    ("rotation", ROTATIONAL, "Rotation; tau is what the bearing does to the ring", &ROTATION),
+];
+const TRANSLATIONAL: &str = "_brinell_mechanical_translational";
+const ROTATIONAL: &str = "_brinell_mechanical_rotational";
+const ALONG: &str = "Motion along an axis; f is what the bearing does to the ring";
+const ROTATION: [(&str, &str); 3] = [("phi", "angle"), ("w", "speed"), ("tau", "torque")];
+
 /// The file's text.
 ///
 /// # Errors
@@ -46,10 +64,17 @@ pub fn terminals(table: &[Variable], interface: Interface) -> Result<String> {
     // The first part of their variables' names.
     let terminals = [("shaft", "Inner"), ("housing", "Outer")].map(|(ring, which)| {
         let name = |member: &str| format!("{ring}.{member}");
-        let members = MEMBERS.into_iter().filter(|member| is_signal(&name(member)));
-        let members: Vec<_> =
-            members.map(|member| context! { member, variable => interface.shown(&name(member)) }).collect();
-        context! { ring, members, description => format!("{which} ring: motion, loads and the bearing's force on it") }
+        let members = |names: &[(&str, &str)]| -> Vec<_> {
+            let present = names.iter().filter(|(_, of_ring)| is_signal(&name(of_ring)));
+            present.map(|&(member, of_ring)| context! { member, variable => interface.shown(&name(of_ring)) }).collect()
+        };
+        let parts = FLANGES.iter().map(|&(part, kind, description, names)| {
+            context! { name => part, kind, description, members => members(names) }
+        });
+        let parts: Vec<_> = parts.collect();
+        let members = members(&MEMBERS.map(|member| (member, member)));
+        let description = format!("{which} ring: motion, loads and the bearing's force on it");
+        context! { ring, members, parts, description }
     });
     let template = include_str!("../../../assets/terminalsAndIcons.xml");
     let version = interface.version.number();

@@ -15,27 +15,30 @@ pub struct DisplayUnit {
     pub factor: f64,
 }
 
-/// The unit's name, and its exponents of kilogram, metre, second and radian.
-fn definition(unit: Unit) -> (&'static str, [i8; 4]) {
+/// The unit's name, its quantity (the Modelica library's, empty where it has none), and its exponents of kilogram,
+/// metre, second and radian.
+fn definition(unit: Unit) -> (&'static str, &'static str, [i8; 4]) {
     match unit {
-        Unit::One => ("1", [0, 0, 0, 0]),
-        Unit::Kilogram => ("kg", [1, 0, 0, 0]),
-        Unit::Metre => ("m", [0, 1, 0, 0]),
-        Unit::Second => ("s", [0, 0, 1, 0]),
-        Unit::Radian => ("rad", [0, 0, 0, 1]),
-        Unit::MetrePerSecond => ("m/s", [0, 1, -1, 0]),
-        Unit::MetrePerSecondSquared => ("m/s2", [0, 1, -2, 0]),
-        Unit::RadianPerSecond => ("rad/s", [0, 0, -1, 1]),
-        Unit::Newton => ("N", [1, 1, -2, 0]),
-        Unit::NewtonMetre => ("N.m", [1, 2, -2, 0]),
-        Unit::NewtonPerMetre => ("N/m", [1, 0, -2, 0]),
-        Unit::NewtonSecondPerMetre => ("N.s/m", [1, 0, -1, 0]),
-        Unit::SecondPerMetre => ("s/m", [0, -1, 1, 0]),
-        Unit::RadianPerSecondSquared => ("rad/s2", [0, 0, -2, 1]),
-        Unit::KilogramSquareMetre => ("kg.m2", [1, 2, 0, 0]),
-        Unit::NewtonMetreSecondPerRadian => ("N.m.s/rad", [1, 2, -1, -1]),
-        Unit::NewtonPerRadian => ("N/rad", [1, 1, -2, -1]),
-        Unit::NewtonMetrePerRadian => ("N.m/rad", [1, 2, -2, -1]),
+        Unit::One => ("1", "", [0, 0, 0, 0]),
+        Unit::Kilogram => ("kg", "Mass", [1, 0, 0, 0]),
+        Unit::Metre => ("m", "Length", [0, 1, 0, 0]),
+        Unit::Second => ("s", "Time", [0, 0, 1, 0]),
+        Unit::Radian => ("rad", "Angle", [0, 0, 0, 1]),
+        Unit::MetrePerSecond => ("m/s", "Velocity", [0, 1, -1, 0]),
+        Unit::MetrePerSecondSquared => ("m/s2", "Acceleration", [0, 1, -2, 0]),
+        Unit::RadianPerSecond => ("rad/s", "AngularVelocity", [0, 0, -1, 1]),
+        Unit::Newton => ("N", "Force", [1, 1, -2, 0]),
+        Unit::NewtonMetre => ("N.m", "Torque", [1, 2, -2, 0]),
+        Unit::NewtonPerMetre => ("N/m", "TranslationalSpringConstant", [1, 0, -2, 0]),
+        Unit::NewtonSecondPerMetre => ("N.s/m", "TranslationalDampingConstant", [1, 0, -1, 0]),
+        Unit::SecondPerMetre => ("s/m", "", [0, -1, 1, 0]),
+        Unit::RadianPerSecondSquared => ("rad/s2", "AngularAcceleration", [0, 0, -2, 1]),
+        Unit::KilogramSquareMetre => ("kg.m2", "MomentOfInertia", [1, 2, 0, 0]),
+        Unit::NewtonMetreSecondPerRadian => ("N.m.s/rad", "RotationalDampingConstant", [1, 2, -1, -1]),
+        Unit::NewtonPerRadian => ("N/rad", "", [1, 1, -2, -1]),
+        Unit::NewtonMetrePerRadian => ("N.m/rad", "RotationalSpringConstant", [1, 2, -2, -1]),
+        Unit::Hertz => ("Hz", "Frequency", [0, 0, -1, 0]),
+        Unit::PascalSecond => ("Pa.s", "DynamicViscosity", [1, -1, -1, 0]),
     }
 }
 
@@ -44,16 +47,38 @@ pub fn name(unit: Unit) -> &'static str {
     definition(unit).0
 }
 
+/// Its quantity as the Modelica library calls it, which is the name of its type as well.
+pub fn quantity(unit: Unit) -> Option<&'static str> {
+    Some(definition(unit).1).filter(|quantity| !quantity.is_empty())
+}
+
+/// What a variable's description says of its unit.
+pub(super) fn attributes(unit: Unit, nominal: f64) -> Vec<(&'static str, String)> {
+    let mut attributes = vec![("unit", name(unit).to_owned())];
+    attributes.extend(quantity(unit).map(|name| ("declaredType", name.to_owned())));
+    attributes.extend(display_unit(unit, nominal).map(|shown| ("displayUnit", shown.name.to_owned())));
+    attributes
+}
+
 /// The base units and their exponents.
 pub fn base_units(unit: Unit) -> [(&'static str, i8); 4] {
-    let [kg, m, s, rad] = definition(unit).1;
+    let [kg, m, s, rad] = definition(unit).2;
     [("kg", kg), ("m", m), ("s", s), ("rad", rad)]
 }
 
-/// The unit that a host shows instead, if there is one.
-pub fn display_unit(unit: Unit) -> Option<DisplayUnit> {
+/// The units that a host may show instead; the first is that of the type.
+pub fn display_units(unit: Unit) -> &'static [DisplayUnit] {
     match unit {
-        Unit::RadianPerSecond => Some(DisplayUnit { name: "rev/min", factor: 30.0 / PI }),
-        _ => None,
+        Unit::RadianPerSecond => &[DisplayUnit { name: "rev/min", factor: 30.0 / PI }],
+        Unit::Radian => &[DisplayUnit { name: "deg", factor: 180.0 / PI }],
+        Unit::Metre => &[DisplayUnit { name: "mm", factor: 1e3 }, DisplayUnit { name: "um", factor: 1e6 }],
+        _ => &[],
     }
+}
+
+/// The unit in which a host shows values of this order of magnitude.
+pub fn display_unit(unit: Unit, nominal: f64) -> Option<DisplayUnit> {
+    let shown = display_units(unit);
+    // From below a tenth of the larger unit on, the smaller one.
+    shown.iter().find(|shown| shown.factor * nominal >= 0.1).or(shown.last()).copied()
 }

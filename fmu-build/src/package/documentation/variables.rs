@@ -29,6 +29,7 @@ fn row(Listed { variable, elements }: &Listed) -> Value {
     let (unit, start) = match &variable.kind {
         Kind::Real { unit, start, .. } => (units::name(*unit), start.map(|value| format!("{value:?}"))),
         Kind::Integer => ("", None),
+        Kind::Whole { start } => ("", Some(start.to_string())),
         Kind::Enumeration { items, start, .. } => {
             let index = usize::try_from(*start - 1).unwrap_or(usize::MAX);
             ("", items.get(index).map(|(name, _)| (*name).to_owned()))

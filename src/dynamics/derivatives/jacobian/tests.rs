@@ -50,7 +50,7 @@ pub(crate) fn lively_with(
     scene.contact.damping = damping;
     if damping == Damping::HuntCrossley(5.0) {
         let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
-        scene.cage.irregularity = Some(CageIrregularity { offsets, jitter: 0.02, wander: 0.01, seed: 5 });
+        scene.cage.irregularity = Some(CageIrregularity { offsets, drawn: None, jitter: 0.02, wander: 0.01, seed: 5 });
     }
     // One sensor, or several that swing along other axes.
     if let Damping::Proportional(_) = damping {

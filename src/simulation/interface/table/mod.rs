@@ -1,5 +1,6 @@
 //! The variable table: name, reference, causality, unit and start value of everything a host can see.
 
+mod between_runs;
 mod builder;
 mod coordinates;
 mod coupling;

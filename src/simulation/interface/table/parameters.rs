@@ -113,15 +113,16 @@ impl Builder<'_> {
         );
     }
 
+    /// Name of what belongs to a defect, counted from 0.
+    pub(super) fn of_defect(&self, index: usize, part: &str) -> String {
+        if self.scene.defects.len() > 1 { format!("defect[{}].{part}", index + 1) } else { format!("defect.{part}") }
+    }
+
     /// Where each defect is.
     fn defect_angles(&mut self) {
         for (index, defect) in self.scene.defects.iter().enumerate() {
-            let name = match self.scene.defects.len() {
-                1 => "defect.angle".to_owned(),
-                _ => format!("defect[{}].angle", index + 1),
-            };
             self.parameter(
-                &name,
+                &self.of_defect(index, "angle"),
                 match defect.on {
                     DefectOn::Outer => "Angle of the defect's centre, counter-clockwise from +x",
                     DefectOn::Inner => {

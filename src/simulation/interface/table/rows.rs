@@ -1,7 +1,7 @@
 //! The rows of the variable table for a scene: the one place where a variable is named.
 //!
-//! Inputs come first, then outputs, then parameters, then what was added for hosts that move a ring. A variable's index
-//! is its FMI value reference, which stays as rows are added.
+//! Inputs come first, then outputs, then parameters, then what was added later: for hosts that move a ring, and between
+//! runs. A variable's index is its FMI value reference, which stays as rows are added.
 
 use super::coordinates::{Along, COORDINATES, name, stiffness_name};
 use crate::scene::{Motion, Scene};
@@ -17,6 +17,7 @@ pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
     builder.outputs();
     builder.parameters();
     builder.coupling();
+    builder.between_runs();
     builder.into_rows()
 }
 

@@ -62,8 +62,13 @@ pub enum Kind {
         /// Order of magnitude.
         nominal: f64,
     },
-    /// `fmi2Integer`.
+    /// A counter, `fmi2Integer`.
     Integer,
+    /// A number from 0 to 2³¹ − 1 that is set, `fmi2Integer`.
+    Whole {
+        /// Start value.
+        start: i32,
+    },
     /// An enumeration, set and read as `fmi2Integer`, counted from 1.
     Enumeration {
         /// Name of the type.
@@ -143,4 +148,8 @@ pub enum Unit {
     NewtonPerRadian,
     /// N.m/rad
     NewtonMetrePerRadian,
+    /// Hz
+    Hertz,
+    /// Pa.s
+    PascalSecond,
 }

@@ -12,7 +12,8 @@ use crate::simulation::{Simulation, SimulationError};
 /// damping or a ring on a soft spring feels its own share.
 fn difference(parameter: Parameter, at: f64, nominal: f64, approach: f64) -> f64 {
     match parameter {
-        Parameter::RadialClearance => approach,
+        Parameter::RadialClearance | Parameter::SpallLength(_) | Parameter::SpallDepth(_) => approach,
+        Parameter::FilmViscosity => 1e-3 * at,
         // What turns a groove's centre by a micrometre or so over the fraction of a millimetre.
         Parameter::ContactAngle => 1e-5,
         // A force changes by χ δ̇ = 1e-4 χ or by 1.5 τ δ̇/δ = 30/s τ of itself.
@@ -60,6 +61,11 @@ impl Simulation {
         values: &mut [f64],
     ) -> Result<(), SimulationError> {
         let Kind::Real { min, max, nominal, .. } = self.variable(known)?.kind else { return Ok(()) };
+        // A map is exact to some 1e-3, and takes seconds for each size.
+        let sizes = matches!(parameter, Parameter::SpallLength(_) | Parameter::SpallDepth(_));
+        if sizes && !self.run.model.rolls_rigidly() {
+            return Err(SimulationError::NoDerivative);
+        }
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
         start.reals(unknowns, &mut here)?;
         let at = self.run.state.reals[known as usize];

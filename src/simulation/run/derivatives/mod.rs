@@ -97,20 +97,7 @@ impl Simulation {
         for &reference in unknowns {
             self.interface.unknown(reference)?;
         }
-        for (&reference, &value) in knowns.iter().zip(seed) {
-            let variable = self.variable(reference)?;
-            let class = self.interface.classes(&[reference]).unwrap_or(0);
-            if class != value_access::INPUT && (self.run.state.started || class != value_access::PARAMETER) {
-                return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
-            }
-            if !value.is_finite() {
-                return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
-            }
-        }
-        self.refresh()?;
-        let acceleration = self.present.outputs(&self.run).acceleration(RingName::Housing);
-        self.present.evaluation.forces.shortcuts.forget();
-        self.along_inputs(knowns, seed);
+        let acceleration = self.along_knowns(knowns, seed)?;
         if !self.run.state.started {
             let progress = &self.run.state.progress;
             let loads = (self.change.loads, self.change.loads_beyond);
@@ -168,8 +155,30 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts the change with that of the inputs alone.
-    pub(in crate::simulation) fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
+    /// Starts the change with that of the inputs among the knowns, everything else as it is. Gives the outer ring's
+    /// acceleration (m/s²).
+    pub(in crate::simulation) fn along_knowns(
+        &mut self,
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<Vector, SimulationError> {
+        for (&reference, &value) in knowns.iter().zip(seed) {
+            let variable = self.variable(reference)?;
+            let class = self.interface.classes(&[reference]).unwrap_or(0);
+            if class != value_access::INPUT && (self.run.state.started || class != value_access::PARAMETER) {
+                return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
+            }
+            if !value.is_finite() {
+                return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
+            }
+        }
+        self.refresh()?;
+        self.present.evaluation.forces.shortcuts.forget();
+        self.along_inputs(knowns, seed);
+        Ok(self.present.outputs(&self.run).acceleration(RingName::Housing))
+    }
+
+    fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
         let change = &mut self.change;
         change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {

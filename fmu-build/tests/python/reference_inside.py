@@ -1,4 +1,4 @@
-"""Reference results in FMUs of FMI 3.0: the manifest after FMI-LS-REF, the files it names, and the results found."""
+"""Reference results in FMUs: the manifest after FMI-LS-REF, the files it names, the experiment, the results found."""
 
 import re
 import sys
@@ -15,7 +15,7 @@ from lxml import etree
 
 PREFIX = "extra/org.fmi-standard.fmi-ls-ref/"
 NAMESPACE = "{http://fmi-standard.org/fmi-ls-manifest}"
-ROLES = re.compile("document|requirement|specification|model|parameter|system|testcase|experiment|result|configuration")
+ROLES = re.compile("testcase|result|configuration|experiment/smoke-test")
 
 for path in map(Path, sys.argv[1:]):
     assert not validate_fmu(str(path)), validate_fmu(str(path))
@@ -31,7 +31,15 @@ for path in map(Path, sys.argv[1:]):
         named = {file.get("source") for file in related}
         held = {name.removeprefix(PREFIX) for name in fmu.namelist() if name.startswith(PREFIX)}
         assert named == held - {"fmi-ls-manifest.xml"}, (named, held)
-        for name in named:
+        (experiment,) = (file for file in related if file.get("role") == "experiment/smoke-test")
+        assert experiment.get("type") == "application/x-ma-hs-experiments"
+        fmu.extract(PREFIX + experiment.get("source"), folder)
+        experiments = etree.parse(str(Path(folder) / PREFIX / experiment.get("source"))).getroot()
+        assert experiments.tag == "Experiments" and experiments.get("name") == path.stem
+        (described,) = experiments
+        sources = {file.get("source") for file in described}
+        assert [file.tag for file in described] == ["Stimuli", "References"] and sources < named
+        for name in named - {experiment.get("source")}:
             fmu.extract(PREFIX + name, folder)
             beside = path.with_name(name)
             assert fmu.read(PREFIX + name) == beside.read_bytes(), f"{name} differs from the file beside the FMU"
@@ -39,6 +47,8 @@ for path in map(Path, sys.argv[1:]):
         stem = str(Path(folder) / PREFIX / results.removesuffix("_ref.csv"))
         options, reference = read_ref_opt_file(stem + "_ref.opt"), read_csv(stem + "_ref.csv")
         step = options["StepSize"]
+        said = [float(described.get(key)) for key in ("startTime", "stopTime", "stepSize", "tolerance")]
+        assert said == [options[key] for key in ("StartTime", "StopTime", "StepSize", "RelTol")], said
         result = simulate_fmu(
             str(path), stop_time=options["StopTime"], step_size=step, output_interval=step,
             output=list(reference.dtype.names[1:]), relative_tolerance=options["RelTol"],

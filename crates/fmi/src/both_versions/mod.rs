@@ -1,6 +1,9 @@
 //! The exported functions that both versions have, alike but for their names: the end of an instance's life, its
 //! messages, and its saved states. Each version exports them by [`functions`] beside those of its own.
 
+pub(crate) mod exchange;
+pub(crate) mod variables;
+
 pub(crate) use crate::arguments::{array, disjoint, state_handle, store, store_all, string};
 pub(crate) use crate::boundary::call;
 pub(crate) use crate::c_interface::{Component, FmiString, FmuState, Status};

@@ -1,0 +1,77 @@
+//! What an engineer changes between runs: sizes of spalls, the cage's seed, the film's viscosity, a sensor's resonance
+//! and the recorder's rate.
+//!
+//! These rows stand after all others, so that older ones keep their references.
+
+use super::builder::{Builder, Limited};
+use super::variables::{Causality, Kind, Unit, Variability};
+use crate::scene::{DefectShape, RecorderFilter};
+use crate::simulation::interface::quantity::{Parameter, Quantity as Q};
+
+impl Builder<'_> {
+    pub(super) fn between_runs(&mut self) {
+        let scene = self.scene;
+        self.spalls();
+        // Larger seeds are none of FMI 2.0's integers: the scene's own holds.
+        let seed = scene.cage.irregularity.as_ref().and_then(|cage| i32::try_from(cage.seed).ok());
+        if let Some(start) = seed {
+            self.push(
+                "cage.seed",
+                "Seed of what is random in the cage",
+                Kind::Whole { start },
+                (Causality::Parameter, Variability::Fixed),
+                Q::Parameter(Parameter::CageSeed),
+            );
+        }
+        if let Some(film) = &scene.film {
+            self.parameter(
+                "film.viscosity",
+                "Viscosity of the oil at the contacts' inlets",
+                Q::Parameter(Parameter::FilmViscosity),
+                Unit::PascalSecond,
+                Limited { start: film.viscosity, min: 1e-4, max: 10.0, nominal: 0.01 },
+            );
+        }
+        for (k, sensor) in scene.sensors.iter().enumerate() {
+            let start = sensor.resonance();
+            self.parameter(
+                &scene.sensor_variable(k).replace("acceleration", "resonance"),
+                "Resonance of the sensor on its mounting; the damping ratio stays",
+                Q::Parameter(Parameter::SensorResonance(k)),
+                Unit::Hertz,
+                Limited { start, min: start.min(1.0), max: start.max(1e6), nominal: 1e4 },
+            );
+        }
+        if let Some(recorder) = &scene.recorder {
+            let min = if recorder.filter == RecorderFilter::None { 0.0 } else { 100.0 };
+            self.parameter(
+                "recorder.rate",
+                "Rows of the recording per second",
+                Q::Parameter(Parameter::RecorderRate),
+                Unit::Hertz,
+                Limited { start: recorder.rate, min, max: 1e7, nominal: 1e4 },
+            );
+        }
+    }
+
+    fn spalls(&mut self) {
+        let scene = self.scene;
+        for (index, defect) in scene.defects.iter().enumerate() {
+            let DefectShape::Spall { length, depth, .. } = defect.shape else { continue };
+            self.parameter(
+                &self.of_defect(index, "length"),
+                "Length of the spall along the surface",
+                Q::Parameter(Parameter::SpallLength(index)),
+                Unit::Metre,
+                Limited { start: length, min: 1e-6, max: defect.on.longest(&scene.bearing).size, nominal: 1e-3 },
+            );
+            self.parameter(
+                &self.of_defect(index, "depth"),
+                "Depth of the spall's floor",
+                Q::Parameter(Parameter::SpallDepth(index)),
+                Unit::Metre,
+                Limited { start: depth, min: 1e-9, max: defect.on.deepest(&scene.bearing).size, nominal: 1e-5 },
+            );
+        }
+    }
+}
