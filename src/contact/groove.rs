@@ -87,8 +87,8 @@ impl Groove {
     }
 }
 
-/// What a ball's contact needs of the axis of its ring: that of a ring that may tilt, or one along z with nothing to work
-/// out.
+/// What a ball's contact needs of the axis of its ring: that of a ring that may tilt, or one along z with nothing to
+/// work out.
 pub trait RingAxis<T: Number>: Copy {
     /// Part h of q along the axis, distance g from it (m), and direction e in which q is away from it.
     fn split(&self, q: Spatial<T>) -> (T, T, Spatial<T>);

@@ -202,7 +202,8 @@ fn the_recorders_file_keeps_what_columns_name() {
     assert!(said.contains("the recorder samples nothing that --columns names"), "{said}");
     assert!(!none.join("6205-healthy.npy").exists());
     let script = folder.join("same.py");
-    let text = "import sys\nimport numpy as np\na, b = (np.load(f'{folder}/6205-healthy.npy') for folder in sys.argv[1:])\n\
+    let text = "import sys\nimport numpy as np\n\
+                a, b = (np.load(f'{folder}/6205-healthy.npy') for folder in sys.argv[1:])\n\
                 assert b.dtype.names == ('time', 'sensor.acceleration') and len(a.dtype.names) > 20, b.dtype.names\n\
                 assert len(b) > 50 and all((a[name] == b[name]).all() for name in b.dtype.names)\n";
     fs::write(&script, text).unwrap();

@@ -68,7 +68,8 @@ impl Stage {
 
     /// Whether it takes a new contact map to set this.
     pub(super) fn takes_long(&self, reference: u32) -> bool {
-        self.mapped && self.variable(reference).name == "bearing.radial_clearance"
+        let name = self.variable(reference).name.as_str();
+        self.mapped && matches!(name, "bearing.radial_clearance" | "defect.length" | "defect.depth")
     }
 
     pub(super) fn references(&self, wanted: impl Fn(&Variable) -> bool) -> Vec<u32> {
@@ -124,6 +125,11 @@ pub(super) fn gentle(variable: &Variable, chance: &mut Chance) -> f64 {
         "shaft.damping" | "housing.damping" => (100.0, 3000.0),
         "shaft.stiffness" | "housing.stiffness" => (1e6, 1e8),
         "solver.tolerance" => (1e-7, 1e-4),
+        name if name.ends_with(".resonance") => (5e3, 3e4),
+        // Fast enough that a walk writes.
+        "recorder.rate" => (2e5, 1e6),
+        name if name.starts_with("defect") && name.ends_with(".length") => (1e-3, 3e-3),
+        name if name.starts_with("defect") && name.ends_with(".depth") => (5e-6, 5e-5),
         name => panic!("{name}: say what a sensible host would set"),
     };
     chance.between(low, high)

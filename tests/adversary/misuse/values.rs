@@ -169,11 +169,14 @@ pub(super) fn set_integer(w: &mut Walker, chance: &mut Chance, kind: bool, _: &S
     // With a defect the other laws take seconds to set up.
     let healthy = w.stage.references(|v| v.name.starts_with("defect")).is_empty();
     let law = if healthy { 1 + chance.below(3) as i32 } else { 1 };
+    let seeds = w.stage.references(|v| v.name == "cage.seed");
+    let seed_verdict = if fixed && !seeds.is_empty() { ERROR } else { OK };
     let (list, value, verdict) = match if kind { 9 } else { chance.below(6) } {
         0 => (laws, *chance.pick(&[0, 4, -1, i32::MAX, i32::MIN]), if fixed { ERROR } else { DISCARD }),
         1 => (vec![w.stage.unknown(chance)], 1, ERROR),
         2 => (w.stage.references(|v| v.name != "contact.law")[..3].to_vec(), 1, ERROR),
         3 => (vec![], 1, OK),
+        4 => (seeds, chance.below(1000) as i32, seed_verdict),
         _ => (laws, law, if fixed { ERROR } else { OK }),
     };
     let values = vec![value; list.len()];

@@ -1,9 +1,9 @@
 //! A bearing in space in static balance: where its inner ring stands under its load, and its tangent stiffness there.
 //!
 //! As in the plane the outer ring is held, nothing moves, neither gravity nor centrifugal force acts on the balls, and
-//! supports are left out. With three degrees of freedom K = −∂F/∂x is 3 × 3; with five forces and moments by x, y, z and
-//! the tilts about x and y make it 5 × 5. It is symmetric up to the product of tilt and moment, as moments are about
-//! axes that stand.
+//! supports are left out. With three degrees of freedom K = −∂F/∂x is 3 × 3; with five, forces and moments by x, y, z
+//! and the tilts about x and y make it 5 × 5. It is symmetric up to the product of tilt and moment, as moments are
+//! about axes that stand.
 
 use super::{StaticError, evenly_spaced};
 use brinell::contact::map::ContactMaps;

@@ -60,8 +60,8 @@ pub enum StaticError {
     InThePlane,
     /// A shaft in space that no force moves.
     #[error(
-        "bearing.degrees_of_freedom = {given} with a shaft that is fixed or that a host moves: nothing says where along \
-         the axis it stands; modes in space are of a shaft that moves by itself, shaft.motion = \"internal\""
+        "bearing.degrees_of_freedom = {given} with a shaft that is fixed or that a host moves: nothing says where \
+         along the axis it stands; modes in space are of a shaft that moves by itself, shaft.motion = \"internal\""
     )]
     HeldInSpace {
         /// Degrees of freedom.

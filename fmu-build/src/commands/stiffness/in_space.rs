@@ -1,5 +1,5 @@
-//! The command `stiffness` for rings with three and five degrees of freedom: balance and tangent stiffness over the cage
-//! angle. A critical load is worked out in the plane only, and there is no figure.
+//! The command `stiffness` for rings with three and five degrees of freedom: balance and tangent stiffness over the
+//! cage angle. A critical load is worked out in the plane only, and there is no figure.
 
 use std::path::Path;
 
