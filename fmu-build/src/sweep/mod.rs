@@ -67,12 +67,12 @@ struct Planned {
 pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;
-    let record = Record::of(sweep, base, file, &planned.text, options.signals)?;
+    let columns = rows::columns::columns(sweep, &|key| planned.is_whole(key));
+    let record = Record::of(sweep, base, file, &planned.text, options.signals, &columns)?;
     let folder = &options.part.map_or(folder.to_owned(), |part| folder.join(part.folder()));
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let _lock = lock(folder)?;
     record.claim(folder)?;
-    let columns = rows::labels::columns(sweep, &|key| planned.is_whole(key));
     let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
     take_parts(folder, &record, &signals)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
@@ -90,7 +90,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         running: &running,
         texts: Mutex::default(),
     };
-    let table = Table { path: folder.join(TABLE), columns: &columns, running: &running };
+    let table = Table { path: folder.join(TABLE), columns: &columns, origin: planned.origin(), running: &running };
     if !rows.is_empty() {
         table.write(&mut rows)?;
     }
@@ -137,6 +137,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
 struct Table<'a> {
     path: PathBuf,
     columns: &'a [rows::Column],
+    origin: [(&'a str, &'a str); 3],
     running: &'a Path,
 }
 
@@ -145,7 +146,7 @@ impl Table<'_> {
     fn write(&self, rows: &mut [Row]) -> Result<()> {
         rows.sort_by_key(Row::run);
         let whole = self.running.join(TABLE);
-        rows::write_table(&whole, self.columns, rows)?;
+        rows::write_table(&whole, self.columns, &self.origin, rows)?;
         whole_file::take_out(&whole, self.path.parent().unwrap_or(Path::new(""))).map(drop)
     }
 }
@@ -233,6 +234,15 @@ impl Planned {
         };
         let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
         Ok(Self { sweep, base, text, whole, speeds, grid })
+    }
+
+    /// What the table says of where it comes from: nothing that depends on the time or the machine.
+    fn origin(&self) -> [(&str, &str); 3] {
+        [
+            ("brinell.version", env!("CARGO_PKG_VERSION")),
+            ("brinell.sweep", &self.text),
+            ("brinell.scene", &self.base.text),
+        ]
     }
 
     fn is_whole(&self, key: &str) -> bool {

@@ -30,6 +30,7 @@ const MAP_ACCURACY: f64 = 4e-3;
 pub(super) struct Base {
     /// Its file, or its name if it is a shipped one.
     pub(super) path: PathBuf,
+    pub(super) text: String,
     pub(super) table: Table,
     pub(super) scene: Scene,
 }
@@ -43,7 +44,7 @@ impl Base {
         for remark in model::remarks(&text, &scene) {
             note!("note: {}: {remark}", path.display());
         }
-        Ok(Self { table: text.parse().with_context(|| path.display().to_string())?, path, scene })
+        Ok(Self { table: text.parse().with_context(|| path.display().to_string())?, text, path, scene })
     }
 
     /// The file of a run's scene, without what follows from it.
