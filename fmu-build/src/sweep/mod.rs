@@ -3,6 +3,7 @@
 //! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
 //! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
 
+mod card;
 mod check;
 mod design;
 mod faults;
@@ -27,6 +28,7 @@ use indicatif::ProgressBar;
 use crate::interrupt::{Held, Interrupted, Temporary};
 use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, NotWritten, Project, note, talk, whole_file};
+use card::Card;
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
@@ -125,6 +127,9 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     })?;
     bar.finish_and_clear();
     table.write(&mut rows)?;
+    let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let card = Card { sweep, name, text: &planned.text, signals: options.signals, columns: &columns };
+    card.write(folder, &rows)?;
     let _ = fs::remove_dir_all(&running);
     println!("{}", table.path.display());
     if options.signals.is_some() {

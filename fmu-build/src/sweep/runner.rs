@@ -45,7 +45,7 @@ pub(crate) enum SignalFormat {
 
 impl SignalFormat {
     /// Name of the file of a run.
-    fn file(self, name: &str) -> String {
+    pub(super) fn file(self, name: &str) -> String {
         let ending = match self {
             Self::Npy => "npy",
             Self::Parquet => "parquet",
@@ -140,6 +140,9 @@ impl SweepRunner<'_> {
         }
         if let Some(profile) = run.profile {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
+        }
+        if let Some(split) = &self.sweep.split {
+            put("split", Cell::Text(split.part(self.sweep.seed, run.index, &run.values).to_owned()))?;
         }
         if let Some(noise) = run.noise {
             let drawn = [("noise_db", noise.ratio), ("noise_rms_m_s2", noise.floor)];

@@ -21,7 +21,7 @@ const INSTEAD: [(&str, &[&str]); 5] = [
     ("bearing.internal_clearance_um", &["radial_clearance_um"]),
 ];
 /// Loads: a number is along the scene's load, downwards where that has none.
-const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
+pub(super) const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
 /// Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 /// time.
 const MAP_ACCURACY: f64 = 4e-3;

