@@ -1,6 +1,7 @@
 //! The card of a data set: what the table beside it holds, how it was made and what is not in it, for those who get the
 //! folder and not its maker.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -32,8 +33,8 @@ machine.";
 /// All that it is made of.
 pub(super) struct Card<'a> {
     pub(super) sweep: &'a Sweep,
-    /// Name of the sweep's file, and its text.
-    pub(super) name: String,
+    /// The sweep's file, and its text.
+    pub(super) file: &'a Path,
     pub(super) text: &'a str,
     pub(super) signals: Option<SignalFormat>,
     pub(super) columns: &'a [Column],
@@ -64,7 +65,7 @@ impl Card<'_> {
 
     fn written(&self, rows: &[Row]) -> String {
         [
-            format!("{MARK}# Simulated vibration of rolling bearings: {}\n\n", self.name),
+            format!("{MARK}# Simulated vibration of rolling bearings: {}\n\n", self.name()),
             self.what(rows),
             "\n## Runs of each class\n\n".to_owned(),
             self.classes(rows),
@@ -76,6 +77,11 @@ impl Card<'_> {
             format!("\n## What is not modelled\n\n{NOT_MODELLED}\n"),
         ]
         .concat()
+    }
+
+    /// Without its folder, which is this machine's.
+    fn name(&self) -> Cow<'_, str> {
+        self.file.file_name().unwrap_or_default().to_string_lossy()
     }
 
     fn what(&self, rows: &[Row]) -> String {
@@ -140,8 +146,8 @@ impl Card<'_> {
              it prints the scene of run N. The scene's own text is in the metadata of `{TABLE}`. `{}`:\n\n\
              {fence}toml\n{}\n{fence}\n",
             env!("CARGO_PKG_VERSION"),
-            self.name,
-            self.name,
+            self.name(),
+            self.name(),
             self.text.trim_end(),
         )
     }

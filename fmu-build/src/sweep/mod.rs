@@ -127,8 +127,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     })?;
     bar.finish_and_clear();
     table.write(&mut rows)?;
-    let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let card = Card { sweep, name, text: &planned.text, signals: options.signals, columns: &columns };
+    let card = Card { sweep, file, text: &planned.text, signals: options.signals, columns: &columns };
     card.write(folder, &rows)?;
     let _ = fs::remove_dir_all(&running);
     println!("{}", table.path.display());
