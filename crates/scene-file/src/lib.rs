@@ -13,7 +13,7 @@ mod units;
 
 pub use catalogue::{CatalogueBearing, Inside, NotInCatalogue, catalogue, catalogued};
 pub use diagnosis::{Hint, KeyFault, SceneFileError, toml_fault};
-pub use schema::schema;
+pub use schema::{description, schema};
 pub use units::{DepthRemark, UnitQuestion, UnitRemark};
 
 use brinell::scene::Scene;

@@ -33,6 +33,13 @@ pub fn schema() -> Schema {
     schema
 }
 
+/// What a key of a scene file means, given with its table (`shaft.load_n`), in the words of the schema.
+pub fn description(key: &str) -> Option<String> {
+    let schema = Value::from(schema());
+    let property = schema.pointer(&pointer(&schema, key)?)?;
+    property.get("description")?.as_str().map(str::to_owned)
+}
+
 fn named(bound: Bound, [inclusive, exclusive]: [&'static str; 2]) -> (&'static str, f64) {
     match bound {
         Bound::Inclusive(bound) => (inclusive, bound),

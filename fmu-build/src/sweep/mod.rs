@@ -3,6 +3,7 @@
 //! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
 //! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
 
+mod card;
 mod check;
 mod design;
 mod faults;
@@ -27,6 +28,7 @@ use indicatif::ProgressBar;
 use crate::interrupt::{Held, Interrupted, Temporary};
 use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, NotWritten, Project, note, talk, whole_file};
+use card::Card;
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
@@ -67,12 +69,12 @@ struct Planned {
 pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;
-    let record = Record::of(sweep, base, file, &planned.text, options.signals)?;
+    let columns = rows::columns::columns(sweep, &|key| planned.is_whole(key));
+    let record = Record::of(sweep, base, file, &planned.text, options.signals, &columns)?;
     let folder = &options.part.map_or(folder.to_owned(), |part| folder.join(part.folder()));
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let _lock = lock(folder)?;
     record.claim(folder)?;
-    let columns = rows::labels::columns(sweep, &|key| planned.is_whole(key));
     let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
     take_parts(folder, &record, &signals)?;
     let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
@@ -90,7 +92,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         running: &running,
         texts: Mutex::default(),
     };
-    let table = Table { path: folder.join(TABLE), columns: &columns, running: &running };
+    let table = Table { path: folder.join(TABLE), columns: &columns, origin: planned.origin(), running: &running };
     if !rows.is_empty() {
         table.write(&mut rows)?;
     }
@@ -125,6 +127,8 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     })?;
     bar.finish_and_clear();
     table.write(&mut rows)?;
+    let card = Card { sweep, file, text: &planned.text, signals: options.signals, columns: &columns };
+    card.write(folder, &rows)?;
     let _ = fs::remove_dir_all(&running);
     println!("{}", table.path.display());
     if options.signals.is_some() {
@@ -137,6 +141,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
 struct Table<'a> {
     path: PathBuf,
     columns: &'a [rows::Column],
+    origin: [(&'a str, &'a str); 3],
     running: &'a Path,
 }
 
@@ -145,7 +150,7 @@ impl Table<'_> {
     fn write(&self, rows: &mut [Row]) -> Result<()> {
         rows.sort_by_key(Row::run);
         let whole = self.running.join(TABLE);
-        rows::write_table(&whole, self.columns, rows)?;
+        rows::write_table(&whole, self.columns, &self.origin, rows)?;
         whole_file::take_out(&whole, self.path.parent().unwrap_or(Path::new(""))).map(drop)
     }
 }
@@ -233,6 +238,15 @@ impl Planned {
         };
         let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
         Ok(Self { sweep, base, text, whole, speeds, grid })
+    }
+
+    /// What the table says of where it comes from: nothing that depends on the time or the machine.
+    fn origin(&self) -> [(&str, &str); 3] {
+        [
+            ("brinell.version", env!("CARGO_PKG_VERSION")),
+            ("brinell.sweep", &self.text),
+            ("brinell.scene", &self.base.text),
+        ]
     }
 
     fn is_whole(&self, key: &str) -> bool {

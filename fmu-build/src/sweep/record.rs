@@ -11,6 +11,7 @@ use clap::ValueEnum;
 use toml::{Table, Value};
 
 use super::file::Sweep;
+use super::rows::Column;
 use super::runner::SignalFormat;
 use super::scenes::Base;
 use crate::shared::shipped;
@@ -30,10 +31,14 @@ impl Record {
         file: &Path,
         text: &str,
         written: Option<SignalFormat>,
+        columns: &[Column],
     ) -> Result<Self> {
         let mut lines = vec![format!("program = {:?}", env!("CARGO_PKG_VERSION"))];
         let signals = written.and_then(|written| written.to_possible_value());
         lines.push(format!("signals = {:?}", signals.as_ref().map_or("none", |value| value.get_name())));
+        // Also the order of the grid, in which runs take its points and rows have their cells.
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        lines.push(format!("columns = {names:?}"));
         let mut table: Table = text.parse().with_context(|| file.display().to_string())?;
         table.remove("runs");
         flat(&table, "", &mut lines);

@@ -17,7 +17,8 @@ use toml::Value;
 use super::design::Run;
 use super::file::Sweep;
 use super::maps::Maps;
-use super::rows::labels::{self, carries_shaft_load, envelope_name, rounded};
+use super::rows::columns::envelope_name;
+use super::rows::labels::{self, carries_shaft_load, rounded};
 use super::rows::statistics::{OneElement, Passage, Statistics, passages};
 use super::rows::{Cell, Column, Kind, Row};
 use super::scenes::{Base, run_name};
@@ -44,7 +45,7 @@ pub(crate) enum SignalFormat {
 
 impl SignalFormat {
     /// Name of the file of a run.
-    fn file(self, name: &str) -> String {
+    pub(super) fn file(self, name: &str) -> String {
         let ending = match self {
             Self::Npy => "npy",
             Self::Parquet => "parquet",
@@ -139,6 +140,9 @@ impl SweepRunner<'_> {
         }
         if let Some(profile) = run.profile {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
+        }
+        if let Some(split) = &self.sweep.split {
+            put("split", Cell::Text(split.part(self.sweep.seed, run.index, &run.values).to_owned()))?;
         }
         if let Some(noise) = run.noise {
             let drawn = [("noise_db", noise.ratio), ("noise_rms_m_s2", noise.floor)];

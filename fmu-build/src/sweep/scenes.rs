@@ -21,7 +21,7 @@ const INSTEAD: [(&str, &[&str]); 5] = [
     ("bearing.internal_clearance_um", &["radial_clearance_um"]),
 ];
 /// Loads: a number is along the scene's load, downwards where that has none.
-const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
+pub(super) const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
 /// Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 /// time.
 const MAP_ACCURACY: f64 = 4e-3;
@@ -30,6 +30,7 @@ const MAP_ACCURACY: f64 = 4e-3;
 pub(super) struct Base {
     /// Its file, or its name if it is a shipped one.
     pub(super) path: PathBuf,
+    pub(super) text: String,
     pub(super) table: Table,
     pub(super) scene: Scene,
 }
@@ -43,7 +44,7 @@ impl Base {
         for remark in model::remarks(&text, &scene) {
             note!("note: {}: {remark}", path.display());
         }
-        Ok(Self { table: text.parse().with_context(|| path.display().to_string())?, path, scene })
+        Ok(Self { table: text.parse().with_context(|| path.display().to_string())?, text, path, scene })
     }
 
     /// The file of a run's scene, without what follows from it.

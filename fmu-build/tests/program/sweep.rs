@@ -1,6 +1,7 @@
 //! `brinell sweep` as a program: equal bits however it is run, rows for runs that fail, faults with their lines.
 #![allow(clippy::unwrap_used)]
 
+mod card;
 mod ends;
 mod files;
 mod labels;
@@ -83,7 +84,8 @@ fn column(out: &Path, name: &str) -> Vec<Field> {
 
 /// Every file of a sweep that is to have the same bits, by its name.
 fn bits(out: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files = vec![("runs.parquet".to_owned(), fs::read(out.join("runs.parquet")).unwrap())];
+    let kept = ["runs.parquet", "README.md"];
+    let mut files = kept.map(|name| (name.to_owned(), fs::read(out.join(name)).unwrap())).to_vec();
     if let Ok(entries) = fs::read_dir(out.join("signals")) {
         let of = |path: PathBuf| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap());
         files.extend(entries.map(|entry| of(entry.unwrap().path())));
@@ -136,7 +138,7 @@ fn a_sweep_has_the_same_bits_on_any_number_of_threads_and_a_longer_one_begins_wi
     assert!(told.contains("24 runs, 24 of them made now, 0 failed"), "{told}");
     sweep(&path, &four, &["--jobs", "4", "--signals"]);
     same_bits(&one, &four);
-    assert_eq!(bits(&one).len(), 25, "a table and a file for each run");
+    assert_eq!(bits(&one).len(), 26, "a table, its card and a file for each run");
     // From a third of the runs to all of them.
     file(&folder, &QUICK.replace("runs = 24", "runs = 8"));
     sweep(&path, &grown, &["--signals"]);
@@ -184,7 +186,7 @@ fn a_sweep_that_is_killed_goes_on_where_it_was_and_has_the_bits_of_one_that_was_
     sweep(&path, &whole, &["--signals", "parquet"]);
     same_bits(&killed, &whole);
     let left: Vec<_> = fs::read_dir(&killed).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(left.len(), 5, "design, lock, rows, table and signals: {left:?}");
+    assert_eq!(left.len(), 6, "design, lock, rows, table, card and signals: {left:?}");
 }
 
 #[test]

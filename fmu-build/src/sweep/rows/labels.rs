@@ -5,11 +5,9 @@ use std::f64::consts::TAU;
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::{Defect, DefectOn, DefectShape, Motion, Scene};
-use toml::Value;
 
-use super::statistics::HARMONICS;
-use super::{Cell, Column, Kind};
-use crate::sweep::file::{Kind as Fault, Sweep, number};
+use super::Cell;
+use crate::sweep::file::{Kind as Fault, number};
 use crate::sweep::scenes::Base;
 
 /// Puts a cell into the column of a name.
@@ -71,74 +69,6 @@ fn in_the_fields_words(put: &mut Put<'_>, scene: &Scene, speed: f64, rate: f64) 
     Ok(())
 }
 
-/// Columns of the table of a sweep.
-pub(in crate::sweep) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Column> {
-    let mut columns = vec![Column { name: "run".to_owned(), kind: Kind::Whole }];
-    let mut add = |name: &str, kind: Kind| columns.push(Column { name: name.to_owned(), kind });
-    if !sweep.kinds.is_empty() {
-        add("kind", Kind::Text);
-    }
-    if !sweep.speed_profiles.is_empty() {
-        add("speed_profile", Kind::Text);
-    }
-    for entry in &sweep.grid {
-        let whole = entry.of.iter().all(Value::is_integer) && is_whole(&entry.key);
-        let numbers = entry.of.iter().all(|value| number(value).is_some());
-        add(
-            &entry.key,
-            if whole {
-                Kind::Whole
-            } else if numbers {
-                Kind::Number
-            } else {
-                Kind::Text
-            },
-        );
-    }
-    for entry in &sweep.random {
-        add(&entry.key, if is_whole(&entry.key) { Kind::Whole } else { Kind::Number });
-    }
-    for (name, limits) in [("noise_db", sweep.noise.ratio), ("noise_rms_m_s2", sweep.noise.floor)] {
-        if limits.is_some() {
-            add(name, Kind::Number);
-        }
-    }
-    add("label_kind", Kind::Text);
-    for label in ["length_mm", "depth_um", "angle_deg", "load_n", "speed_hz"] {
-        add(&format!("label_{label}"), Kind::Number);
-    }
-    for (name, kind) in FIELD_LABELS {
-        add(name, kind);
-    }
-    for name in ["bpfo_hz", "rms_m_s2", "peak_m_s2", "kurtosis"] {
-        add(name, Kind::Number);
-    }
-    (1..=HARMONICS).for_each(|k| add(&envelope_name(k), Kind::Number));
-    for name in ["unloaded_s", "loaded_again_s", "unloaded_deg"] {
-        add(name, Kind::Number);
-    }
-    for name in ["steps", "rejected_steps"] {
-        add(name, Kind::Whole);
-    }
-    add("error", Kind::Text);
-    columns
-}
-
-/// Labels by the names and words of the package bearing-datasets, so that its recordings and runs stand in one table.
-const FIELD_LABELS: [(&str, Kind); 11] = [
-    ("fault_type", Kind::Text),
-    ("fault_location", Kind::Text),
-    ("fault_size_mm", Kind::Number),
-    ("speed_rpm", Kind::Number),
-    ("load", Kind::Number),
-    ("load_unit", Kind::Text),
-    ("fs", Kind::Number),
-    ("bpfo", Kind::Number),
-    ("bpfi", Kind::Number),
-    ("bsf", Kind::Number),
-    ("ftf", Kind::Number),
-];
-
 fn field_word(on: DefectOn) -> &'static str {
     match on {
         DefectOn::Outer => "outer",
@@ -153,10 +83,6 @@ fn length(defect: &Defect) -> Option<f64> {
         DefectShape::Spall { length, .. } => Some(length),
         DefectShape::Profile(_) => None,
     }
-}
-
-pub(in crate::sweep) fn envelope_name(k: usize) -> String {
-    format!("envelope_{k}_bpfo_m_s2")
 }
 
 fn kind_of(on: DefectOn) -> Fault {

@@ -3,12 +3,14 @@
 //! A line of the journal is a row with a checksum before it. A program that is ended while it writes leaves at most a
 //! line that its checksum does not fit; that run is made again.
 
+pub(super) mod columns;
 pub(super) mod labels;
 pub(super) mod statistics;
 
 use crate::run::table::{GROUP, PACKING};
 use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
@@ -38,6 +40,7 @@ pub(super) enum Kind {
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) kind: Kind,
+    pub(super) meaning: String,
 }
 
 /// What stands in a column of a row.
@@ -165,8 +168,8 @@ impl Journal {
 }
 
 /// Writes the rows as Apache Parquet, whole or not at all: a row for each run, in their order; what a run does not have
-/// is null.
-pub(super) fn write_table(path: &Path, columns: &[Column], rows: &[Row]) -> Result<()> {
+/// is null. The file's metadata has each column's unit as `unit:<name>`, and these pairs of `origin`.
+pub(super) fn write_table(path: &Path, columns: &[Column], origin: &[(&str, &str)], rows: &[Row]) -> Result<()> {
     let field = |column: &Column| {
         let (physical, logical) = match column.kind {
             Kind::Number => (Physical::DOUBLE, None),
@@ -178,8 +181,13 @@ pub(super) fn write_table(path: &Path, columns: &[Column], rows: &[Row]) -> Resu
     };
     let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
-    let properties =
-        WriterProperties::builder().set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?)).build();
+    let pair = |key: String, value: &str| KeyValue::new(key, Some(value.to_owned()));
+    let units = columns.iter().filter_map(|column| Some(pair(format!("unit:{}", column.name), column.unit()?)));
+    let metadata = units.chain(origin.iter().map(|(key, value)| pair((*key).to_owned(), value))).collect();
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?))
+        .set_key_value_metadata(Some(metadata))
+        .build();
     whole_file::write_with(path, |out| {
         let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
         for rows in rows.chunks(GROUP) {
@@ -232,7 +240,7 @@ mod tests {
     use super::*;
 
     fn columns() -> Vec<Column> {
-        let column = |(name, kind): (&str, Kind)| Column { name: name.to_owned(), kind };
+        let column = |(name, kind): (&str, Kind)| Column { name: name.to_owned(), kind, meaning: String::new() };
         [("run", Kind::Whole), ("rms", Kind::Number), ("error", Kind::Text)].map(column).to_vec()
     }
 

@@ -1,5 +1,8 @@
 //! The file of a sweep: TOML that says which scene is run, and what changes from run to run.
 
+mod kind;
+mod split;
+
 use std::ops::RangeInclusive;
 
 use brinell::scene::nearest;
@@ -9,9 +12,11 @@ use toml::{Table, Value};
 
 use super::faults::Fault;
 use crate::run::noise::{Color, FLOORS, NoiseLimits, RATIOS};
+pub(super) use kind::Kind;
+pub(super) use split::{PARTS, Split};
 
 /// Keys of the file itself, and its three tables of keys of a scene.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 14] = [
     "scene",
     "runs",
     "seed",
@@ -24,31 +29,14 @@ const KEYS: [&str; 12] = [
     "noise_db",
     "noise_rms_m_s2",
     "noise_color",
+    "split",
+    "split_by",
 ];
 const TABLES: [&str; 3] = ["set", "grid", "random"];
 /// Samples per second that a sweep may ask for (Hz).
 const RATES: RangeInclusive<f64> = 100.0..=1e6;
 /// Runs of a sweep at most: numbers of runs have seven digits.
 const MOST: u64 = 10_000_000;
-
-/// A kind of fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    Healthy,
-    Outer,
-    Inner,
-    Element,
-}
-
-impl Kind {
-    const ALL: [(&'static str, Self); 4] =
-        [("healthy", Self::Healthy), ("outer", Self::Outer), ("inner", Self::Inner), ("element", Self::Element)];
-
-    /// As a file says it.
-    pub(super) fn word(self) -> &'static str {
-        Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(word, _)| word)
-    }
-}
 
 /// A key of a scene, what stands behind it, and its line.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +65,8 @@ pub(super) struct Sweep {
     /// Files with the shaft's speed over time, relative to this one.
     pub(super) speed_profiles: Vec<String>,
     pub(super) noise: NoiseLimits,
+    /// Parts of the data set that runs are shared out to.
+    pub(super) split: Option<Split>,
     pub(super) set: Vec<Entry<Value>>,
     pub(super) grid: Vec<Entry<Vec<Value>>>,
     pub(super) random: Vec<Entry<[f64; 2]>>,
@@ -147,12 +137,14 @@ impl Reading<'_, '_> {
             kinds,
             speed_profiles,
             noise,
+            split: None,
             set,
             grid,
             random,
         };
         self.given_twice(&mut sweep);
         sweep.seed = self.whole("seed", 0, i64::MAX as u64).unwrap_or(1);
+        sweep.split = self.split(sweep.seed, &sweep.grid);
         let points = sweep.points();
         sweep.runs = self.whole("runs", 1, MOST).unwrap_or(points);
         if !self.file.keys().any(|key| is_meant("runs", key.get_ref())) && (!sweep.random.is_empty() || points > MOST) {
