@@ -30,6 +30,10 @@ def unturned(angle):
 def logarithmic(axis, values, headroom=1.4):
     """Newtons on a logarithmic axis, from a little below the least to a little above the greatest, marked 1 2 5."""
     values = values[np.isfinite(values) & (values > 0)]
+    if not len(values):
+        # An element rests on the bottom without any load: the axis is linear, and the curve lies on it.
+        axis.set_ylim(-0.05 * load, headroom * load)
+        return
     axis.set_yscale("log")
     axis.set_ylim(0.7 * min(values.min(), load), headroom * max(values.max(), load))
     axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))

@@ -6,7 +6,8 @@ mod variables;
 
 use anyhow::Result;
 use brinell::scene::{
-    Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, Film, Motion, Ring, RollerProfile, Scene, Sensor,
+    Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, DegreesOfFreedom, Film, Motion, Ring, RollerProfile,
+    Scene, Sensor,
 };
 use brinell::simulation::Method;
 use minijinja::context;
@@ -35,6 +36,7 @@ pub fn write(model: &Model, interface: impl Into<Interface>) -> Result<String> {
         program => env!("CARGO_PKG_VERSION"),
         fmi => version.number(),
         facts => facts(scene),
+        freedom => scene.bearing.degrees_of_freedom.count(),
         signs => SIGNS,
         remarks => remarks(&model.scene_text, scene).map(|remark| remark.to_string()).collect::<Vec<_>>(),
         hosted => scene.shaft.motion == Motion::Host || scene.housing.motion == Motion::Host,
@@ -67,6 +69,7 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     let defects: Vec<(&str, String)> = scene.defects.iter().map(defect_row).collect();
     let healthy = [("Defect", "none".to_owned())];
     let defects = if defects.is_empty() { &healthy[..] } else { &defects };
+    let in_space = bearing.degrees_of_freedom != DegreesOfFreedom::Two;
     let mut rows = elements(bearing);
     rows.extend([
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
@@ -76,9 +79,9 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));
     rows.extend(defects.iter().cloned());
     rows.extend([
-        ("Shaft (inner ring)", ring(&scene.shaft)),
+        ("Shaft (inner ring)", ring(&scene.shaft, in_space)),
         ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
-        ("Housing (outer ring)", ring(&scene.housing)),
+        ("Housing (outer ring)", ring(&scene.housing, in_space)),
         ("Accelerometers", accelerometers(scene)),
         ("Default run", format!("{} s in steps of {} s", scene.experiment.stop, scene.experiment.step)),
     ]);
@@ -156,10 +159,24 @@ fn defect_row(defect: &Defect) -> (&'static str, String) {
     (on, format!("{element}{what} at {angle}, {shape}"))
 }
 
-fn ring(ring: &Ring) -> String {
+fn ring(ring: &Ring, in_space: bool) -> String {
+    let axial = ring.axial;
     match ring.motion {
         Motion::Host => "moved by the host".to_owned(),
         Motion::Fixed => "stands".to_owned(),
+        Motion::Internal if in_space => format!(
+            "moves freely: {} kg, {} N s/m, {} N/m to ground, along z {} N s/m, {} N/m, loaded by ({}, {}, {}) N and a \
+             preload spring of {} N",
+            ring.mass,
+            ring.damping,
+            ring.stiffness,
+            axial.damping,
+            axial.stiffness,
+            ring.load[0],
+            ring.load[1],
+            axial.load,
+            axial.preload
+        ),
         Motion::Internal => format!(
             "moves freely: {} kg, {} N s/m, {} N/m to ground, loaded by ({}, {}) N",
             ring.mass, ring.damping, ring.stiffness, ring.load[0], ring.load[1]
@@ -181,6 +198,17 @@ mod tests {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/");
         write(&Model::read(&std::path::Path::new(path).join(scene).with_extension("toml")).unwrap(), Version::Fmi2)
             .unwrap()
+    }
+
+    #[test]
+    fn bearings_in_space_say_so() {
+        let [plane, three, five] = ["6205-epps", "7205-preloaded", "7205-inner"].map(page);
+        assert!(plane.contains("they move in the plane") && !plane.contains("moves along its axis"));
+        for text in [&three, &five] {
+            assert!(!text.contains("they move in the plane") && text.contains("moves along its axis"));
+            assert!(text.contains("preload spring of"));
+        }
+        assert!(!three.contains("and tilts") && five.contains("and tilts"));
     }
 
     #[test]

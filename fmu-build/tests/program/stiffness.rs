@@ -45,6 +45,20 @@ fn a_scene_with_a_defect_gives_two_tables_and_a_figure() {
 }
 
 #[test]
+fn a_critical_load_of_0_is_drawn_too() {
+    // The ring stands between two of its three elements, and the third lies in the defect.
+    let scene = fs::read_to_string(common::root().join("scenes/6205-spall-5deg.toml")).unwrap();
+    let scene = scene.replace("element_count = 9", "element_count = 3").replace("law = \"map\"", "law = \"hertz\"");
+    let path = common::folder("unloaded").join("unloaded.toml");
+    fs::write(&path, scene.replace("radial_clearance_um = 5.0", "radial_clearance_um = 30.0")).unwrap();
+    let options = Options { load: None, points: Some(20), figure: true, json: false };
+    let folder = made(&Model::read(&path).unwrap(), "stiffness-unloaded", options);
+    let (_, variations) = read(&folder.join("6205-spall-5deg-critical-load.csv"));
+    assert!(variations.iter().all(|row| row[4] == 0.0));
+    assert!(folder.join("6205-spall-5deg-stiffness.png").metadata().unwrap().len() > 10_000);
+}
+
+#[test]
 fn a_healthy_bearing_has_no_critical_load_and_a_hosted_one_takes_a_load() {
     let folder = made(
         &common::model("6205-hosted"),

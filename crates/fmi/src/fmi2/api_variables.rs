@@ -65,7 +65,7 @@ functions! {
     set fmi2SetReal(*const Real) SET_REAL |instance, references, values| {
         Ok(instance.simulation.set_reals(references, values)?)
     };
-    /// `fmi2SetInteger`: enumerations; no integer can be set.
+    /// `fmi2SetInteger`: enumerations and the seed of an uneven cage.
     set fmi2SetInteger(*const Integer) SET_INTEGER |instance, references, values| {
         Ok(instance.simulation.set_integers(references, values)?)
     };
