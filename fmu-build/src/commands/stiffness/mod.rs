@@ -248,6 +248,10 @@ fn write_variations(
         row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
     }
     let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |critical| critical.load);
+    if rigid == 0.0 {
+        // An element is at the bottom without any load: no compliance has a say.
+        return Ok(());
+    }
     let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
     for i in 0..VARIATIONS {
         let compliance = softest * part(i);
