@@ -178,8 +178,9 @@ impl<'a> Tally<'a> {
         writeln!(
             text,
             "\nThe forces of the start are the oracle's to {median:.0e} of the largest in half of the scenes and to \
-             {most:.0e} in 99 % of them; the largest differences are those of straight rollers that are just touched, \
-             with less force than the rounding of their place makes. The worst difference later is {worst:.0} units of {} allowed.\n",
+             {most:.0e} in 99 % of them; the largest differences are those of straight rollers that are just \
+             touched, with less force than the rounding of their place makes. The worst difference later is \
+             {worst:.0} units of {} allowed.\n",
             crate::units::LIMIT
         )
         .unwrap();
