@@ -82,7 +82,7 @@ impl Stage {
     }
 
     pub(super) fn integers(&self) -> Vec<u32> {
-        self.references(|v| matches!(v.kind, Kind::Integer | Kind::Enumeration { .. }))
+        self.references(|v| matches!(v.kind, Kind::Integer | Kind::Whole { .. } | Kind::Enumeration { .. }))
     }
 
     pub(super) fn folder(&self) -> Option<u32> {
