@@ -22,15 +22,14 @@ bearings, against `tangent` at half a microsecond.
 
 import argparse
 import math
-import zipfile
 from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Instance, build, percent, unzipped, whole
+from bearing import SCENES, Instance, build, percent
 from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import ParameterSet, read_ssd
-from system_of_fmus import Unit, connector, parameters_of, step, unit_fmu
+from system_of_fmus import component, connector, parameters_of, running, step, structure, unit_fmu, write_system
 
 MASS, TRANSVERSE, POLAR = 3.0, 8e-3, 2e-3  # kg, kg m2
 SPEED = 100.0 * math.pi  # rad/s
@@ -203,20 +202,8 @@ def shaft_description():
     return description("shaft", guid, "A rigid shaft in two bearings", variables())
 
 
-def bindings(values):
-    listed = "".join(
-        f'<ssv:Parameter name="{name}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
-        for name, value in values.items()
-    )
-    return (
-        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
-        f'<ssv:ParameterSet version="1.0" name="values"><ssv:Parameters>{listed}</ssv:Parameters></ssv:ParameterSet>'
-        "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"
-    )
-
-
-def structure(bearing, mounted, kind, start):
-    """SystemStructure.ssd: bearings first, which is the order in which a sequential algorithm steps."""
+def pair(bearing, mounted, kind, start):
+    """The system: bearings first."""
     elements, wires = [], []
     shaft_connectors = []
     for name in PLACES:
@@ -236,59 +223,15 @@ def structure(bearing, mounted, kind, start):
     values.update({f"{name}.offset": offset for name, offset in offsets(mounted).items()})
     values.update({f"start.{axis}": place for axis, place in zip(AXES, start)})
     elements.append(component("shaft", "resources/shaft.fmu", shaft_connectors, values))
-    connections = "".join(
-        f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'
-        for a, b, c, d in wires
-    )
-    return f"""<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription name="pair_of_bearings" version="1.0"
-    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
-    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
-    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
-<ssd:System name="system">
-<ssd:Elements>
-{"".join(elements)}</ssd:Elements>
-<ssd:Connections>
-{connections}</ssd:Connections>
-</ssd:System>
-<ssd:DefaultExperiment startTime="0" stopTime="0.01"/>
-</ssd:SystemStructureDescription>
-"""
-
-
-def component(name, source, connectors, values):
-    return (
-        f'<ssd:Component name="{name}" type="application/x-fmu-sharedlibrary" source="{source}">\n'
-        f"<ssd:Connectors>{''.join(connectors)}</ssd:Connectors>\n{bindings(values)}\n</ssd:Component>\n"
-    )
-
-
-def write_system(path, bearing, shaft, mounted, kind, start):
-    with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
-        system.writestr("SystemStructure.ssd", structure(bearing.name, mounted, kind, start))
-        system.write(bearing, f"resources/{bearing.name}")
-        system.write(shaft, "resources/shaft.fmu")
-    return path
+    return structure("pair_of_bearings", elements, wires, 0.01)
 
 
 def ours(kind, handover):
     """An algorithm of system_of_fmus.py, parallel or sequential; inputs held, with derivative, or interpolated."""
 
     def run(ssp, h, stop):
-        system = read_ssd(str(ssp)).system
-        units = {component.name: Unit(component, unzipped(str(ssp))) for component in system.elements}
-        ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-        wires = {}
-        for one in system.elements:
-            sources = [ends[one.name, c.name] for c in one.connectors if c.kind == "input"]
-            wires[one.name] = [(name, units[name].names.index(output)) for name, output in sources]
-        shaft = units["shaft"]
-        try:
-            for name in (*PLACES, "shaft"):
-                given = {other: unit.give() for other, unit in units.items()}
-                units[name].tell([given[other][i] for other, i in wires[name]])
-            for unit in units.values():
-                unit.run()
+        with running(ssp) as (units, wires):
+            shaft = units["shaft"]
             found, every = [shaft.give()[-5:]], round(GRID / h)
             for count in range(1, round(stop / h) + 1):
                 step(units, wires, h, kind, handover)
@@ -296,9 +239,6 @@ def ours(kind, handover):
                     raise RuntimeError(f"unstable at {count * h:.4g} s")
                 if count % every == 0:
                     found.append(shaft.give()[-5:])
-        finally:
-            for unit in units.values():
-                unit.close()
         return np.array(found)
 
     return run
@@ -356,7 +296,7 @@ def main():
     systems = {}
     for kind in FORCES:
         path = options.output / f"pair-{options.mounted}{'-mean' if kind else ''}.ssp"
-        systems[kind] = write_system(path, bearing, shaft, options.mounted, kind, start)
+        systems[kind] = write_system(path, pair(bearing.name, options.mounted, kind, start), [bearing, shaft])
         print(path)
     print(f"stiffness: {stiffness[2, 2]:.4g} N/m along the axis, {stiffness[3, 3]:.4g} N m/rad against tilt")
     if options.build:

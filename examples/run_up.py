@@ -17,14 +17,12 @@ Without rotation the linear rotor's modes are those of its matrices, printed wit
 
 import argparse
 import json
-import zipfile
 from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Bearing, build, changed_scene, unzipped, whole
-from fmpy.ssp.ssd import read_ssd
-from pair_of_bearings import component, description
-from system_of_fmus import CASINGS, Unit, connector, in_version, step, unit_fmu
+from bearing import SCENES, Bearing, build, changed_scene
+from pair_of_bearings import description
+from system_of_fmus import CASINGS, component, connector, running, step, structure, unit_fmu, write_system
 
 MASS, JOURNAL, STIFFNESS = 10.0, 1.0, 2e7  # kg, kg, N/m
 DAMPING = 2 * 0.02 * np.sqrt(STIFFNESS * MASS)  # N s/m on the disk, from outside
@@ -149,15 +147,15 @@ def variables():
     return found + [(name, "parameter", value) for name, value in parameters.items()]
 
 
-def write_system(path, bearing, disk, rest, ssp):
-    """The system as SSP: bearings first, then the rotor."""
+def pair_and_disk(bearing, rest):
+    """The system: bearings first, then the rotor."""
     elements, wires, own = [], [], [connector("speed", "output")]
     for side in SIDES:
         moves = ["shaft.speed", *(f"shaft.{motion}" for motion in MOTION)]
         gives = [f"shaft.next_mean_force.{axis}" for axis in "xy"]
         connectors = [connector(name, "input") for name in moves] + [connector(name, "output") for name in gives]
         values = {"shaft.speed": FROM, "shaft.x": rest[0], "shaft.y": rest[1]}
-        elements.append(component(side, f"resources/{bearing.name}", connectors, values))
+        elements.append(component(side, f"resources/{bearing}", connectors, values))
         own += [connector(f"{side}.force.{axis}", "input") for axis in "xy"]
         own += [connector(f"{side}.{motion}", "output") for motion in MOTION]
         wires += [(side, gave, "disk", f"{side}.force.{axis}") for gave, axis in zip(gives, "xy")]
@@ -167,50 +165,17 @@ def write_system(path, bearing, disk, rest, ssp):
     values = {"damping": DAMPING, "eccentricity": ECCENTRICITY, "rate": RATE, "load": -LOAD}
     values.update({"start.speed": FROM, "start.x": rest[0], "start.y": rest[1]})
     elements.append(component("disk", "resources/disk.fmu", own, values))
-    connections = "".join(
-        f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'
-        for a, b, c, d in wires
-    )
-    space = "http://ssp-standard.org/SSP1/SystemStructure"
-    text = f"""<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription name="run_up" version="1.0" xmlns:ssd="{space}Description"
-    xmlns:ssc="{space}Common" xmlns:ssv="{space}ParameterValues">
-<ssd:System name="system">
-<ssd:Elements>
-{"".join(elements)}</ssd:Elements>
-<ssd:Connections>
-{connections}</ssd:Connections>
-</ssd:System>
-<ssd:DefaultExperiment startTime="0" stopTime="0.7"/>
-</ssd:SystemStructureDescription>
-"""
-    with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
-        system.writestr("SystemStructure.ssd", in_version(text, ssp))
-        system.write(bearing, f"resources/{bearing.name}")
-        system.write(disk, "resources/disk.fmu")
+    return structure("run_up", elements, wires, 0.7)
 
 
 def run_system(ssp, h, stop):
     """As `run`, of the SSP file by the parallel algorithm that holds inputs."""
-    system = read_ssd(str(ssp)).system
-    units = {one.name: Unit(one, unzipped(str(ssp))) for one in system.elements}
-    ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-    wires = {}
-    for one in system.elements:
-        sources = [ends[one.name, c.name] for c in one.connectors if c.kind == "input"]
-        wires[one.name] = [(name, units[name].names.index(output)) for name, output in sources]
-    for name in units:
-        given = {other: unit.give() for other, unit in units.items()}
-        units[name].tell([given[other][i] for other, i in wires[name]])
-    for unit in units.values():
-        unit.run()
-    places = [units["disk"].give()[-2:]]
-    for _ in range(round(stop / h)):
-        step(units, wires, h, "parallel", "held")
-        places.append(units["disk"].give()[-2:])
-    for unit in units.values():
-        unit.close()
-    return np.array(places[1:]) - places[0]
+    with running(ssp) as (units, wires):
+        places = [units["disk"].give()[-2:]]
+        for _ in range(round(stop / h)):
+            step(units, wires, h, "parallel", "held")
+            places.append(units["disk"].give()[-2:])
+        return np.array(places[1:]) - places[0]
 
 
 def peaks(found, h):
@@ -257,7 +222,7 @@ def main():
     settle, rest = settled(fmu, {"shaft.speed": FROM})
     settle.close()
     ssp = folder / "run-up.ssp"
-    write_system(ssp, fmu, disk, rest, options.ssp)
+    write_system(ssp, pair_and_disk(fmu.name, rest), [fmu, disk], options.ssp)
     print(ssp)
     if options.build:
         return

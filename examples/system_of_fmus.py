@@ -26,6 +26,7 @@ import os
 import shlex
 import subprocess
 import zipfile
+from contextlib import contextmanager
 from ctypes import c_int
 from pathlib import Path
 from xml.etree import ElementTree
@@ -110,48 +111,60 @@ def connector(name, kind):
     return f'<ssd:Connector name="{name}" kind="{kind}"><ssc:Real/></ssd:Connector>'
 
 
-def structure(bearing, force, start):
-    """SystemStructure.ssd: bearing first, which is the order in which a sequential algorithm steps."""
-    forces = {f"shaft.{force}.{axis}": f"force.{axis}" for axis in "xy"}
-    to_bearing = "".join(connector(name, "input") for name in MOTION.values())
-    from_bearing = "".join(connector(name, "output") for name in forces)
-    to_rotor = "".join(connector(name, "input") for name in forces.values())
-    from_rotor = "".join(connector(name, "output") for name in MOTION)
-    parameters = {"mass": MASS, "stiffness": STIFFNESS, "load.y": -LOAD, "start.x": start[0], "start.y": start[1]}
-    values = "".join(
-        f'<ssv:Parameter name="{name}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
-        for name, value in parameters.items()
+def component(name, source, connectors, values):
+    """An FMU of a system with its connectors, and the values of its parameters if there are any."""
+    listed = "".join(
+        f'<ssv:Parameter name="{parameter}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
+        for parameter, value in values.items()
     )
-    wires = [("bearing", a, "rotor", b) for a, b in forces.items()]
-    wires += [("rotor", a, "bearing", b) for a, b in MOTION.items()]
+    bindings = (
+        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+        f'<ssv:ParameterSet version="1.0" name="{name}"><ssv:Parameters>{listed}</ssv:Parameters></ssv:ParameterSet>'
+        "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>\n"
+    )
+    return (
+        f'<ssd:Component name="{name}" type="application/x-fmu-sharedlibrary" source="{source}">\n'
+        f"<ssd:Connectors>{''.join(connectors)}</ssd:Connectors>\n{bindings if values else ''}</ssd:Component>\n"
+    )
+
+
+def structure(name, components, wires, stop):
+    """SystemStructure.ssd until `stop` [s]; components in the order in which a sequential algorithm steps."""
     connections = "".join(
         f'<ssd:Connection startElement="{a}" startConnector="{b}" endElement="{c}" endConnector="{d}"/>\n'
         for a, b, c, d in wires
     )
-    kind = 'type="application/x-fmu-sharedlibrary"'
     return f"""<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription name="bearing_and_rotor" version="1.0"
+<ssd:SystemStructureDescription name="{name}" version="1.0"
     xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
     xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
     xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
 <ssd:System name="system">
 <ssd:Elements>
-<ssd:Component name="bearing" {kind} source="resources/{bearing}">
-<ssd:Connectors>{to_bearing}{from_bearing}</ssd:Connectors>
-</ssd:Component>
-<ssd:Component name="rotor" {kind} source="resources/rotor.fmu">
-<ssd:Connectors>{to_rotor}{from_rotor}</ssd:Connectors>
-<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>
-<ssv:ParameterSet version="1.0" name="rotor"><ssv:Parameters>{values}</ssv:Parameters></ssv:ParameterSet>
-</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>
-</ssd:Component>
-</ssd:Elements>
+{"".join(components)}</ssd:Elements>
 <ssd:Connections>
 {connections}</ssd:Connections>
 </ssd:System>
-<ssd:DefaultExperiment startTime="0" stopTime="0.02"/>
+<ssd:DefaultExperiment startTime="0" stopTime="{stop}"/>
 </ssd:SystemStructureDescription>
 """
+
+
+def bearing_and_rotor(bearing, force, start):
+    """The system: bearing first."""
+    forces = {f"shaft.{force}.{axis}": f"force.{axis}" for axis in "xy"}
+    to_bearing = [connector(name, "input") for name in MOTION.values()]
+    from_bearing = [connector(name, "output") for name in forces]
+    to_rotor = [connector(name, "input") for name in forces.values()]
+    from_rotor = [connector(name, "output") for name in MOTION]
+    parameters = {"mass": MASS, "stiffness": STIFFNESS, "load.y": -LOAD, "start.x": start[0], "start.y": start[1]}
+    wires = [("bearing", a, "rotor", b) for a, b in forces.items()]
+    wires += [("rotor", a, "bearing", b) for a, b in MOTION.items()]
+    components = [
+        component("bearing", f"resources/{bearing}", to_bearing + from_bearing, {}),
+        component("rotor", "resources/rotor.fmu", to_rotor + from_rotor, parameters),
+    ]
+    return structure("bearing_and_rotor", components, wires, 0.02)
 
 
 def in_version(structure, ssp):
@@ -160,11 +173,11 @@ def in_version(structure, ssp):
     return first + "\n" + rest.replace('version="1.0"', f'version="{ssp}"')
 
 
-def write_system(path, bearing, rotor, force, start, ssp="1.0"):
+def write_system(path, text, fmus, ssp="1.0"):
     with whole(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as system:
-        system.writestr("SystemStructure.ssd", in_version(structure(bearing.name, force, start), ssp))
-        system.write(bearing, f"resources/{bearing.name}")
-        system.write(rotor, "resources/rotor.fmu")
+        system.writestr("SystemStructure.ssd", in_version(text, ssp))
+        for fmu in fmus:
+            system.write(fmu, f"resources/{fmu.name}")
     return path
 
 
@@ -201,26 +214,39 @@ class Unit(Instance):
             self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, pointer)
 
 
+@contextmanager
+def running(ssp, iterated=False):
+    """The units of a system and their wires, with what they start from, running; closed at the end.
+
+    Each gets what those before it in the file make of theirs: what the last starts from moves the bearings, whose
+    forces it then gets.
+    """
+    system, folder = read_ssd(str(ssp)).system, unzipped(str(ssp))
+    units = {one.name: Unit(one, folder, iterated) for one in system.elements}
+    ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+    wires = {}
+    for one in system.elements:
+        sources = [ends[one.name, c.name] for c in one.connectors if c.kind == "input"]
+        wires[one.name] = [(name, units[name].names.index(output)) for name, output in sources]
+    try:
+        for name in units:
+            given = {other: unit.give() for other, unit in units.items()}
+            units[name].tell([given[other][i] for other, i in wires[name]])
+        for unit in units.values():
+            unit.run()
+        yield units, wires
+    finally:
+        for unit in units.values():
+            unit.close()
+
+
 def ours(kind, handover):
     """An algorithm: `kind` parallel or sequential; inputs by `handover` held, with derivative, or interpolated."""
 
     def run(ssp, h, stop):
-        system = read_ssd(str(ssp)).system
-        folder, iterated = unzipped(str(ssp)), kind == "iterated"
-        units = {component.name: Unit(component, folder, iterated) for component in system.elements}
-        ends = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-        wires = {}
-        for component in system.elements:
-            sources = [ends[component.name, c.name] for c in component.connectors if c.kind == "input"]
-            wires[component.name] = [(name, units[name].names.index(output)) for name, output in sources]
-        rotor = units["rotor"]
-        try:
-            # What the rotor starts from moves the bearing, whose force the rotor then gets.
-            for name in ("bearing", "rotor"):
-                given = {other: unit.give() for other, unit in units.items()}
-                units[name].tell([given[other][i] for other, i in wires[name]])
-            for unit in units.values():
-                unit.run()
+        iterated = kind == "iterated"
+        with running(ssp, iterated) as (units, wires):
+            rotor = units["rotor"]
             positions, every = [rotor.give()[:2]], round(GRID / h)
             for count in range(1, round(stop / h) + 1):
                 if iterated:
@@ -231,9 +257,6 @@ def ours(kind, handover):
                     raise RuntimeError(f"unstable at {count * h:.4g} s")
                 if count % every == 0:
                     positions.append(rotor.give()[:2])
-        finally:
-            for unit in units.values():
-                unit.close()
         return np.array(positions)
 
     return run
@@ -340,7 +363,8 @@ def main():
         systems = {}
         for force in ("force", "mean_force", "next_mean_force"):
             path = options.output / f"{bearing.stem.removeprefix('system-')}-{force}.ssp"
-            systems[force] = write_system(path, bearing, rotor, force, exact[0], options.ssp)
+            text = bearing_and_rotor(bearing.name, force, exact[0])
+            systems[force] = write_system(path, text, [bearing, rotor], options.ssp)
             if options.build:
                 print(path)
         for whose, kind, handover, force, run in ALGORITHMS:
