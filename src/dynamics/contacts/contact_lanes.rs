@@ -45,37 +45,48 @@ struct Found<S: Wide> {
     pushing: [Lanes<S>; 2],
 }
 
-/// Forces of contacts along x and y, inner and then outer ones, by lanes: eight sums each, whatever the registers.
+/// Sums of `N` forces by lanes: eight sums each, whatever the registers.
 ///
 /// In registers of their own kind: added to a half of eight numbers that is found out late, a sum would be written in
 /// quarters and read together, at 15 cycles each.
-pub(in crate::dynamics) struct Sums<S: Wide>([[Lanes<S>; 2]; 4]);
+pub(in crate::dynamics) struct Sums<S: Wide, const N: usize>([[Lanes<S>; 2]; N]);
 
-impl<S: Wide> Sums<S> {
+impl<S: Wide, const N: usize> Sums<S, N> {
     #[inline(always)]
     pub(in crate::dynamics) fn new(simd: S) -> Self {
-        Self([[Lanes::splat(simd, 0.0); 2]; 4])
+        Self([[Lanes::splat(simd, 0.0); 2]; N])
     }
 
     /// Adds forces on the elements of this part of a block.
     #[inline(always)]
-    pub(in crate::dynamics) fn add(&mut self, part: usize, forces: [Lanes<S>; 4]) {
+    pub(in crate::dynamics) fn add(&mut self, part: usize, forces: &[Lanes<S>]) {
         let half = part % (WIDEST / S::F64_LANES);
-        for (lanes, force) in self.0.iter_mut().zip(forces) {
+        for (lanes, &force) in self.0.iter_mut().zip(forces) {
             lanes[half] = lanes[half] + force;
         }
     }
 
-    /// Force on the inner ring, then on the outer, of the forces on elements that were added.
+    /// The sums over all lanes.
     #[inline(always)]
-    pub(in crate::dynamics) fn on_rings(&self) -> [f64; 4] {
-        let [shaft_x, shaft_y, housing_x, housing_y] = self.0.each_ref().map(|halves| {
+    pub(in crate::dynamics) fn totals(&self) -> [f64; N] {
+        let mut totals = [0.0; N];
+        for (total, halves) in totals.iter_mut().zip(&self.0) {
             let mut lanes = [0.0; WIDEST];
             for (part, half) in halves.iter().enumerate().take(WIDEST / S::F64_LANES) {
                 half.put(&mut lanes, part);
             }
-            sum_of(lanes)
-        });
+            *total = sum_of(lanes);
+        }
+        totals
+    }
+}
+
+impl<S: Wide> Sums<S, 4> {
+    /// Force on the inner ring, then on the outer, of the forces on elements that were added: along x and y, of inner
+    /// contacts and then of outer ones.
+    #[inline(always)]
+    pub(in crate::dynamics) fn on_rings(&self) -> [f64; 4] {
+        let [shaft_x, shaft_y, housing_x, housing_y] = self.totals();
         [-shaft_x, -shaft_y, housing_x, housing_y]
     }
 }
@@ -236,7 +247,7 @@ impl Model {
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
                 let found = smooth.contacts::<S, UNEVEN_OR_OILED>(simd, of(&state[k]), of(&state[w]), block, of);
-                sums.add(part, found.forces);
+                sums.add(part, &found.forces);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
                 if RECORD {

@@ -263,7 +263,8 @@ impl Model {
             }
             let found = self.ball_in_balance(space, in_cells, place, (&moving, Dual::constant(0.0)), shortcuts);
             let there = found.place.map(|number| number.value);
-            let tangent = self.ball_tangent(space, in_cells, there, &at.standing(), at.omega, shortcuts);
+            let tangent =
+                self.ball_tangent::<_, { 2 + RINGS }>(space, in_cells, there, &at.standing(), at.omega, shortcuts);
             for (i, force) in found.forces.on_rings().as_flattened().iter().enumerate() {
                 for k in 0..RINGS {
                     shared.forces[i][k] += tangent.by_position[i][k];

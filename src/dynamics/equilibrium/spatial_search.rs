@@ -172,7 +172,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> DVector<f64> {
         let (space, rings) = (given.space, given.rings_at(x));
-        let tangent = self.spatial_tangent(space, &given.still, &rings, given.cells, balls, shortcuts);
+        let tangent = self.spatial_tangent::<{ 2 + RINGS }>(space, &given.still, &rings, given.cells, balls, shortcuts);
         let longest = longest_step(iteration);
         let (turning, loose) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
         let count = given.free.len();

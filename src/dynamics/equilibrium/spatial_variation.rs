@@ -43,7 +43,7 @@ impl Model {
         for j in 0..self.element_count {
             let (in_cells, place) = (self.cells_of(cells, j), [state[j], state[v + j]]);
             let at = self.ball_motion(j, &now, &rings, shortcuts);
-            let tangent = self.ball_tangent(space, in_cells, place, &at, at.omega, shortcuts);
+            let tangent = self.ball_tangent::<_, { 2 + RINGS }>(space, in_cells, place, &at, at.omega, shortcuts);
             let (changing, _) = self.changing_ball_motion(j, &now, &rings, by, shortcuts);
             let place = place.map(Dual::<f64, 1>::from);
             let (residual, found) = self.ball_residual(space, in_cells, &changing, place, changing.omega, shortcuts);

@@ -71,7 +71,7 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                 let known = [of(&state[k]), of(&state[start + k])];
                 let element = shared.balanced(&at, known, stage.ahead).damped(&shared, &at);
                 element.path_rate.put(&mut derivative[k], part);
-                sums.add(part, element.forces(&at));
+                sums.add(part, &element.forces(&at));
                 if RECORD {
                     element.keep(&at, contacts, k, part);
                 }

@@ -174,21 +174,8 @@ impl Model {
     }
 
     /// What a ball in balance at `place` makes of the forces on the rings; it feels the centrifugal force of `omega`
-    /// (rad/s).
-    pub(in crate::dynamics) fn ball_tangent<T: Scalar>(
-        &self,
-        space: &Space,
-        cells: [[u32; 2]; 2],
-        place: [T; 2],
-        at: &BallMotion<T>,
-        omega: T,
-        shortcuts: &mut Shortcuts,
-    ) -> BallTangent<T> {
-        self.ball_tangent_by::<T, { 2 + RINGS }>(space, cells, place, at, omega, shortcuts)
-    }
-
-    /// The same by the first coordinates of the rings alone, two fewer than `K`.
-    pub(in crate::dynamics) fn ball_tangent_by<T: Scalar, const K: usize>(
+    /// (rad/s). By the first coordinates of the rings alone, two fewer than `K`.
+    pub(in crate::dynamics) fn ball_tangent<T: Scalar, const K: usize>(
         &self,
         space: &Space,
         cells: [[u32; 2]; 2],

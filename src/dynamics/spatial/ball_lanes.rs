@@ -3,42 +3,10 @@
 use super::ball::{Ball, OnBall, Place, SeenAxis, axis_of};
 use crate::contact::groove::{Axis, Concentric, Upright};
 use crate::contact::law::{DampedLaw, Point};
-use crate::dynamics::contacts::Record;
-use crate::dynamics::contacts::radial;
+use crate::dynamics::contacts::{Record, Sums, radial};
 use crate::dynamics::parameters::{COORDINATES, ElementBlock, Model, RINGS, RingInSpace, Space, Stage};
-use crate::numerics::lanes::{Lanes, WIDEST, Wide, blocks, blocks_mut, sum_of};
+use crate::numerics::lanes::{Lanes, WIDEST, Wide, blocks, blocks_mut};
 use crate::numerics::plane::Vector;
-
-/// Forces on the rings along their coordinates, by lanes: eight sums each, whatever the registers, and in registers of
-/// their own kind as those of the plane.
-struct RingSums<S: Wide>([[Lanes<S>; 2]; RINGS]);
-
-impl<S: Wide> RingSums<S> {
-    /// Adds forces of the balls of this part of a block.
-    #[inline(always)]
-    fn add(&mut self, part: usize, forces: [[Lanes<S>; COORDINATES]; 2]) {
-        let half = part % (WIDEST / S::F64_LANES);
-        for ring in 0..2 {
-            for k in 0..COORDINATES {
-                let lanes = &mut self.0[COORDINATES * ring + k][half];
-                *lanes = *lanes + forces[ring][k];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn on_rings(&self) -> [f64; RINGS] {
-        let mut forces = [0.0; RINGS];
-        for k in 0..RINGS {
-            let mut lanes = [0.0; WIDEST];
-            for part in 0..WIDEST / S::F64_LANES {
-                self.0[k][part].put(&mut lanes, part);
-            }
-            forces[k] = sum_of(lanes);
-        }
-        forces
-    }
-}
 
 /// What balls on smooth grooves are worked out with.
 struct Smooth<'a, S: Wide, I, O> {
@@ -88,7 +56,7 @@ impl Model {
         let (cage, speed) = (stage.cage.direction, stage.cage.speed);
         let rings = [everywhere(simd, &rings[0]), everywhere(simd, &rings[1])];
         let smooth = Smooth { model: self, space, simd, cage, speed, rings, axes, ahead: stage.ahead };
-        let mut sums = RingSums([[Lanes::splat(simd, 0.0); 2]; RINGS]);
+        let mut sums = Sums::new(simd);
         let (count, state, derivative) = (elements.len(), blocks(stage.state), blocks_mut(derivative));
         for (k, block) in elements.iter().enumerate() {
             for part in 0..WIDEST / S::F64_LANES {
@@ -107,7 +75,7 @@ impl Model {
                 }
             }
         }
-        sums.on_rings()
+        sums.totals()
     }
 }
 
@@ -148,7 +116,7 @@ impl<S: Wide, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>> Smooth<'_, S, I, O> 
         [u, v, w, w_z]: [Lanes<S>; 4],
         block: &ElementBlock,
         of: &impl Fn(&[f64; WIDEST]) -> Lanes<S>,
-        (part, sums): (usize, &mut RingSums<S>),
+        (part, sums): (usize, &mut Sums<S, RINGS>),
     ) -> ([Lanes<S>; 4], Found<S>) {
         let (model, space, simd) = (self.model, self.space, self.simd);
         let number = |number: f64| Lanes::splat(simd, number);
@@ -171,7 +139,8 @@ impl<S: Wide, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>> Smooth<'_, S, I, O> 
         let total = |i: usize| contacts[0].on_ball.force[i] + contacts[1].on_ball.force[i];
         let gravity = [number(model.gravity.x), number(model.gravity.y), number(space.gravity)];
         let [radial, axial] = ball.accelerations([total(0), total(2)], of(&block.per_mass), gravity);
-        sums.add(part, [ball.on_ring(&contacts[0].on_ball), ball.on_ring(&contacts[1].on_ball)]);
+        let on_rings = [ball.on_ring(&contacts[0].on_ball), ball.on_ring(&contacts[1].on_ball)];
+        sums.add(part, on_rings.as_flattened());
         ([ball.rates[0], ball.rates[1], radial, axial], Found { path_rate: ball.rates[0], around: total(1), contacts })
     }
 }

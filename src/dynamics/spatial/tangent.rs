@@ -5,21 +5,9 @@ use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinemati
 
 impl Model {
     /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
-    /// balance at `balls`, u and v of each; elastic, everything standing where it is.
-    pub(in crate::dynamics) fn spatial_tangent(
-        &self,
-        space: &Space,
-        now: &FramedKinematics,
-        rings: &[RingInSpace; 2],
-        cells: &Cells,
-        balls: &[[f64; 2]],
-        shortcuts: &mut Shortcuts,
-    ) -> [[f64; RINGS]; RINGS] {
-        self.spatial_tangent_by::<{ 2 + RINGS }>(space, now, rings, cells, balls, shortcuts)
-    }
-
-    /// The same by the first coordinates of the rings alone, two fewer than `K`.
-    fn spatial_tangent_by<const K: usize>(
+    /// balance at `balls`, u and v of each; elastic, everything standing where it is. By the first coordinates of the
+    /// rings alone, two fewer than `K`.
+    pub(in crate::dynamics) fn spatial_tangent<const K: usize>(
         &self,
         space: &Space,
         now: &FramedKinematics,
@@ -32,7 +20,7 @@ impl Model {
         for (j, &place) in balls.iter().enumerate() {
             let at = self.ball_motion(j, now, rings, shortcuts);
             let (omega, in_cells) = (at.omega, self.cells_of(cells, j));
-            let found = self.ball_tangent_by::<f64, K>(space, in_cells, place, &at.standing(), omega, shortcuts);
+            let found = self.ball_tangent::<f64, K>(space, in_cells, place, &at.standing(), omega, shortcuts);
             for (row, by) in sum.iter_mut().zip(found.by_position) {
                 row.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
             }
@@ -53,7 +41,7 @@ impl Model {
         let rings = self.rings_in_space(excitation, 0.0, state, None);
         let now = self.kinematics(excitation, 0.0, state);
         let balls = self.balls_of(contacts.paths(self, state));
-        let tangent = self.spatial_tangent_by::<{ 2 + COORDINATES }>(space, &now, &rings, cells, &balls, shortcuts);
+        let tangent = self.spatial_tangent::<{ 2 + COORDINATES }>(space, &now, &rings, cells, &balls, shortcuts);
         Some(std::array::from_fn(|row| std::array::from_fn(|column| -tangent[row][column])))
     }
 
