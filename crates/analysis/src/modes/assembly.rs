@@ -9,7 +9,7 @@
 
 use super::defect_edge_angles;
 use super::defect_edge_angles::Edge;
-use crate::statics::StaticError;
+use crate::statics::{StaticError, surfaces_and_map};
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
@@ -18,10 +18,9 @@ use brinell::dynamics::parameters::{
 };
 use brinell::numerics::wrap;
 use brinell::scene::{DegreesOfFreedom, Motion, Ring, Scene};
-use brinell::simulation::setup::{build_model, largest_force, stored_map};
-use brinell::surface::{Surface, with_roller_profile};
+use brinell::simulation::setup::{build_model, largest_force};
+use brinell::surface::with_roller_profile;
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// An assembly that stands still.
 #[derive(Debug, Clone)]
@@ -149,9 +148,7 @@ impl Assembly {
             // Prescribed, at the position that is found for it.
             still.shaft.motion = Motion::Host;
         }
-        let surfaces = Surface::load_all(scene, profiles)?;
-        let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
-        let map = map.transpose()?.map(Arc::new);
+        let (surfaces, map) = surfaces_and_map(scene, profiles, map)?;
         // The map is to reach as far as the scene's loads, that on a held shaft included.
         still.contact.largest_force = Some(largest_force(scene));
         let model = build_model(&still, &surfaces, map.as_ref())?;

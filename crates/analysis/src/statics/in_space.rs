@@ -5,16 +5,13 @@
 //! and the tilts about x and y make it 5 × 5. It is symmetric up to the product of tilt and moment, as moments are
 //! about axes that stand.
 
-use super::{StaticError, evenly_spaced};
-use brinell::contact::map::ContactMaps;
+use super::{StaticError, evenly_spaced, surfaces_and_map};
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::parameters::{Beyond, COORDINATES, Excitation, Layout, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{AxialSupport, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, TiltSupport};
-use brinell::simulation::setup::{build_model, largest_force, stored_map};
-use brinell::surface::Surface;
+use brinell::simulation::setup::{build_model, largest_force};
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// A ball in balance.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -63,9 +60,7 @@ impl BearingInSpace {
         if of.load == [0.0; 2] && of.axial.load == 0.0 && of.axial.preload == 0.0 {
             return Err(StaticError::NoLoad { load: of.load });
         }
-        let surfaces = Surface::load_all(scene, profiles)?;
-        let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
-        let map: Option<Arc<ContactMaps>> = map.transpose()?.map(Arc::new);
+        let (surfaces, map) = surfaces_and_map(scene, profiles, map)?;
         let mut held = scene.clone();
         held.contact.largest_force = Some(largest_force(scene));
         (held.gravity, held.axial_gravity) = ([0.0; 2], 0.0);

@@ -174,9 +174,7 @@ impl StaticBearing {
         in_the_plane(scene)?;
         let profiles: Vec<&str> = profiles.into_iter().collect();
         let scene = &with_roller_profile(scene, profiles.iter().copied())?;
-        let surfaces = Surface::load_all(scene, profiles)?;
-        let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
-        let map = map.transpose()?.map(Arc::new);
+        let (surfaces, map) = surfaces_and_map(scene, profiles, map)?;
         let load = load_on_bearing(scene);
         let still = Ring::fixed();
         let mut held = scene.clone();
@@ -385,4 +383,18 @@ fn load_zone(clearance: f64, displacement: [f64; 2]) -> f64 {
         return if clearance > 0.0 { 0.0 } else { PI };
     }
     libm::acos(clearance / length)
+}
+
+/// The surfaces of a scene's defects, and the contact map of these bytes if there is anything to look up in it.
+///
+/// # Errors
+/// Whatever is wrong with a profile or with the map.
+pub(crate) fn surfaces_and_map<'p>(
+    scene: &Scene,
+    profiles: impl IntoIterator<Item = &'p str>,
+    map: Option<&[u8]>,
+) -> Result<(Vec<Surface>, Option<Arc<ContactMaps>>), StaticError> {
+    let surfaces = Surface::load_all(scene, profiles)?;
+    let map = map.filter(|_| !surfaces.is_empty()).map(|bytes| stored_map(scene, &surfaces, bytes));
+    Ok((surfaces, map.transpose()?.map(Arc::new)))
 }

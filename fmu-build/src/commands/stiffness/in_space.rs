@@ -60,10 +60,14 @@ fn table(balances: &[BalanceInSpace], order: usize) -> (Vec<(String, &'static st
     (names, columns)
 }
 
-/// Least and greatest of a quantity.
+/// Least and greatest of some numbers.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
+}
+
+/// Those of a quantity of all balances.
 fn extent(balances: &[BalanceInSpace], of: impl Fn(&BalanceInSpace) -> f64) -> [f64; 2] {
-    let ends = [f64::INFINITY, f64::NEG_INFINITY];
-    balances.iter().map(of).fold(ends, |[least, most], value| [least.min(value), most.max(value)])
+    ends(balances.iter().map(of))
 }
 
 fn largest_force(at: &BalanceInSpace) -> f64 {
@@ -73,8 +77,7 @@ fn largest_force(at: &BalanceInSpace) -> f64 {
 /// Least and greatest contact angle (rad) of the loaded balls.
 fn contact_angles(balances: &[BalanceInSpace]) -> [f64; 2] {
     let loaded = balances.iter().flat_map(|at| &at.balls).filter(|ball| ball.forces[0] > 0.0);
-    let ends = [f64::INFINITY, f64::NEG_INFINITY];
-    loaded.map(|ball| ball.contact_angles[0]).fold(ends, |[least, most], value| [least.min(value), most.max(value)])
+    ends(loaded.map(|ball| ball.contact_angles[0]))
 }
 
 fn summary(balances: &[BalanceInSpace], order: usize) -> String {
