@@ -253,23 +253,25 @@ impl Model {
     ) {
         let v = self.layout.axial().map_or(0, |[v, _]| v);
         for j in 0..self.element_count {
-            let (in_cells, place) = (self.cells_of(cells, j), [state[j], state[v + j]]);
+            let in_cells = self.cells_of(cells, j);
             let at = self.ball_motion(j, &shared.now, &shared.still, shortcuts);
-            let mut moving = at.lifted::<RINGS>();
-            for (ring, of) in moving.rings.iter_mut().enumerate() {
-                for (k, rate) in of.velocity.iter_mut().enumerate() {
-                    *rate = Dual::variable(rate.value, COORDINATES * ring + k);
+            let mut there = [state[j], state[v + j]];
+            // One after the other: with all at once each contact would be a quarter of a megabyte of code.
+            for k in 0..RINGS {
+                let mut moving = at.lifted::<1>();
+                let rate = &mut moving.rings[k / COORDINATES].velocity[k % COORDINATES];
+                *rate = Dual::variable(rate.value, 0);
+                let still = Dual::constant(0.0);
+                let found = self.ball_in_balance(space, in_cells, there, (&moving, still), shortcuts);
+                there = found.place.map(|number| number.value);
+                for (i, force) in found.forces.on_rings().as_flattened().iter().enumerate() {
+                    shared.forces[i][RINGS + k] += force.by[0];
                 }
             }
-            let found = self.ball_in_balance(space, in_cells, place, (&moving, Dual::constant(0.0)), shortcuts);
-            let there = found.place.map(|number| number.value);
             let tangent =
                 self.ball_tangent::<_, { 2 + RINGS }>(space, in_cells, there, &at.standing(), at.omega, shortcuts);
-            for (i, force) in found.forces.on_rings().as_flattened().iter().enumerate() {
-                for k in 0..RINGS {
-                    shared.forces[i][k] += tangent.by_position[i][k];
-                    shared.forces[i][RINGS + k] += force.by[k];
-                }
+            for (sums, by) in shared.forces.iter_mut().zip(tangent.by_position) {
+                sums.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
             }
         }
     }

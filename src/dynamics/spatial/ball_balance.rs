@@ -184,22 +184,21 @@ impl Model {
         omega: T,
         shortcuts: &mut Shortcuts,
     ) -> BallTangent<T> {
-        let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
-        let coordinates = seeded.rings.iter_mut().flat_map(|ring| &mut ring.position);
-        for (k, x) in coordinates.enumerate().take(K - 2) {
-            *x = Dual::variable(x.value, 2 + k);
-        }
-        let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
-        let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
         let (residual, rings) = if space.couple_shares == [0.0; 2] {
+            let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
+            let coordinates = seeded.rings.iter_mut().flat_map(|ring| &mut ring.position);
+            for (k, x) in coordinates.enumerate().take(K - 2) {
+                *x = Dual::variable(x.value, 2 + k);
+            }
+            let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
+            let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
             let ball = seeded.ball_moving(self, seeds, [none; 2]);
             let standing = at.lifted::<STANDING>();
             let [inner, outer] = self.chained_on_ball(space, cells, (&standing, none), &ball, shortcuts);
             let force = plus(inner.force, outer.force);
             (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
         } else {
-            let (residual, found) = self.ball_residual(space, cells, &seeded, seeds, speed, shortcuts);
-            (residual, found.on_rings())
+            self.coupled_to_first_order(space, cells, place, (at, omega), shortcuts)
         };
         let rings = rings.as_flattened();
         let mut tangent = BallTangent {
@@ -216,6 +215,35 @@ impl Model {
             }
         }
         tangent
+    }
+
+    /// R_r and R_z and the forces on the rings with derivatives by u, v and the first coordinates of the rings, where
+    /// the contacts hold the couple of the spin. One coordinate after the other: with all of them at once each contact
+    /// would be a quarter of a megabyte of code.
+    fn coupled_to_first_order<T: Scalar, const K: usize>(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        place: [T; 2],
+        (at, omega): (&BallMotion<T>, T),
+        shortcuts: &mut Shortcuts,
+    ) -> ([Dual<T, K>; 2], [[Dual<T, K>; COORDINATES]; 2]) {
+        let none = Dual::constant(T::from(0.0));
+        let (mut left, mut on_rings) = ([none; 2], [[none; COORDINATES]; 2]);
+        for k in 2..K {
+            let mut seeded: BallMotion<Dual<T, 3>> = at.lifted();
+            let x = &mut seeded.rings[(k - 2) / COORDINATES].position[(k - 2) % COORDINATES];
+            *x = Dual::variable(x.value, 2);
+            let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
+            let (residual, found) = self.ball_residual(space, cells, &seeded, seeds, Dual::constant(omega), shortcuts);
+            let found = found.on_rings();
+            let all = left.iter_mut().chain(on_rings.as_flattened_mut());
+            for (of, found) in all.zip(residual.iter().chain(found.as_flattened())) {
+                of.value = found.value;
+                (of.by[0], of.by[1], of.by[k]) = (found.by[0], found.by[1], found.by[2]);
+            }
+        }
+        (left, on_rings)
     }
 }
 
