@@ -51,6 +51,12 @@ pub enum SimulationError {
     /// Rings that nothing holds: how the equilibrium moves with the inputs is not defined.
     #[error("the initial equilibrium has no derivative: an internal ring touches nothing and has no support stiffness")]
     NoDerivative,
+    /// A derivative by a size of a spall whose contacts are those of Love's half-space.
+    #[error(
+        "no derivative by {0}: a contact map is solved for each size of a spall and is exact to 1e-3; contact.law \
+         hertz has one, or take the difference of two starts"
+    )]
+    NoDerivativeBySize(String),
     /// A state that names cells of a raceway which this model does not have.
     #[error("the state is not of this model: it has an element in a part of the defect that is not there")]
     ForeignState,

@@ -197,6 +197,7 @@ impl Failure {
             | Failure::Variable(VariableError::OutOfRange { .. } | VariableError::UnusedDerivative { .. })
             | Failure::Simulation(
                 SimulationError::NoDerivative
+                | SimulationError::NoDerivativeBySize(_)
                 | SimulationError::Variable(
                     VariableError::OutOfRange { .. }
                     | VariableError::NotAKnown { .. }

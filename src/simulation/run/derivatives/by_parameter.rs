@@ -64,7 +64,7 @@ impl Simulation {
         // A map is exact to some 1e-3, and takes seconds for each size.
         let sizes = matches!(parameter, Parameter::SpallLength(_) | Parameter::SpallDepth(_));
         if sizes && !self.run.model.rolls_rigidly() {
-            return Err(SimulationError::NoDerivative);
+            return Err(SimulationError::NoDerivativeBySize(self.variable(known)?.name.clone()));
         }
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
         start.reals(unknowns, &mut here)?;
