@@ -2,7 +2,6 @@
 //! limit.
 #![allow(clippy::unwrap_used)]
 
-use crate::common;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -33,9 +32,9 @@ fn csv(folder: &Path, name: &str, columns: &[(&str, Vec<f64>)]) -> PathBuf {
     path
 }
 
+/// A scene of the rig would be simulated, which takes half a minute.
 fn size(folder: &Path, recording: &Path, more: &[&str]) -> Output {
-    let scene = common::root().join("scenes/6205-healthy.toml");
-    size_of(folder, recording, &[&["--scene", scene.to_str().unwrap()], more].concat())
+    size_of(folder, recording, &[&["--bearing", "6205"], more].concat())
 }
 
 fn size_of(folder: &Path, recording: &Path, more: &[&str]) -> Output {
