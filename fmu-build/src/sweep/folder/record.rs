@@ -10,22 +10,22 @@ use brinell::numerics::checksum::checksum;
 use clap::ValueEnum;
 use toml::{Table, Value};
 
-use super::file::Sweep;
-use super::rows::Column;
-use super::runner::SignalFormat;
-use super::scenes::Base;
+use super::SignalFormat;
 use crate::shared::shipped;
 use crate::shared::whole_file;
+use crate::sweep::file::Sweep;
+use crate::sweep::rows::Column;
+use crate::sweep::scenes::Base;
 
 /// Name of the file.
 const FILE: &str = "design.txt";
 
 /// All that rows and signals depend on.
-pub(super) struct Record(Vec<String>);
+pub(in crate::sweep) struct Record(Vec<String>);
 
 impl Record {
     /// Of a sweep in a file.
-    pub(super) fn of(
+    pub(in crate::sweep) fn of(
         sweep: &Sweep,
         base: &Base,
         file: &Path,
