@@ -98,7 +98,8 @@ impl Sweep {
             color: self.noise.color,
             seed: bits(self.seed, checksum(NOISE.as_bytes()), index as i64),
         };
-        let noise = (noise.ratio.is_some() || noise.floor.is_some()).then_some(noise);
+        let is_there = noise.ratio.is_some() || noise.floor.is_some() || self.noise_spectrum.is_some();
+        let noise = is_there.then_some(noise);
         Run { index, kind, profile, values, noise }
     }
 

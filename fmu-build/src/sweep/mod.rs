@@ -24,6 +24,7 @@ use brinell::scene::Experiment;
 use indicatif::ProgressBar;
 
 use crate::interrupt::{Held, Interrupted};
+use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::speed_profile::SpeedProfile;
 use crate::shared::{Grid, Project, note, talk, whole_file};
 pub(crate) use design::Part;
@@ -58,6 +59,7 @@ struct Planned {
     /// Keys that take whole numbers only.
     whole: BTreeSet<String>,
     speeds: Vec<SpeedProfile>,
+    spectrum: Option<NoiseSpectrum>,
     grid: Grid,
 }
 
@@ -78,6 +80,7 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
         base,
         columns: &columns,
         speeds: &planned.speeds,
+        spectrum: planned.spectrum.as_ref(),
         grid: planned.grid,
         folder: &folder,
         texts: Mutex::default(),
@@ -224,14 +227,17 @@ impl Planned {
             return Err(Faults(faults)).with_context(about);
         };
         let grid = Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
+        let beside = |name: &String| file.parent().unwrap_or(Path::new("")).join(name);
         let speed = |name: &String| {
-            let path = file.parent().unwrap_or(Path::new("")).join(name);
+            let path = beside(name);
             let profile = SpeedProfile::read(&path)?;
             profile.check_covers(grid.end()).with_context(|| path.display().to_string())?;
             anyhow::Ok(profile)
         };
         let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
-        Ok(Self { sweep, base, text, whole, speeds, grid })
+        let spectrum = sweep.noise_spectrum.as_ref();
+        let spectrum = spectrum.map(|name| NoiseSpectrum::read(&beside(name), sweep.rate)).transpose()?;
+        Ok(Self { sweep, base, text, whole, speeds, spectrum, grid })
     }
 
     /// What the table says of where it comes from: nothing that depends on the time or the machine.

@@ -25,6 +25,7 @@ use super::scenes::{Base, run_name};
 use crate::interrupt::Interrupted;
 use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
+use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::run_loop::{Done, RunLoop};
 use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
@@ -36,6 +37,7 @@ pub(super) struct SweepRunner<'a> {
     pub(super) base: &'a Base,
     pub(super) columns: &'a [Column],
     pub(super) speeds: &'a [SpeedProfile],
+    pub(super) spectrum: Option<&'a NoiseSpectrum>,
     pub(super) grid: Grid,
     /// Where signals grow and go.
     pub(super) folder: &'a Folder,
@@ -140,6 +142,9 @@ impl SweepRunner<'_> {
         if let Some(noise) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();
             noise.add(&kept, &sensors, 0)?;
+            if let Some(spectrum) = self.spectrum {
+                spectrum.add(&kept, &sensors, self.sweep.rate, noise.seed)?;
+            }
         }
         self.measure(row, &scene, &done, &kept)?;
         self.folder.write(&kept, run.index, self.sweep.rate)?;

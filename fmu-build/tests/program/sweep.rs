@@ -6,6 +6,7 @@ mod card;
 mod ends;
 mod files;
 mod labels;
+mod noise;
 mod oracle;
 mod rings;
 

@@ -22,13 +22,13 @@ const FILE: &str = "README.md";
 /// How it begins: a file of that name that begins otherwise is somebody's own.
 const MARK: &str = "<!-- Written by brinell sweep, each time that it writes the table. -->\n";
 
-const NOT_MODELLED: &str = "Rings and housing bore are rigid: what lies between housing and sensor is in the modes \
-of the scene's sensors alone. There is no plastic deformation and no wear: a defect stays as it is. There is no \
-friction between elements and raceways; the cage moves as the scene says, without dynamics of its own. An oil film is \
-there only where the scene has a [film], and only before the contact. At a sharp edge the contact is stiffer than a \
-real corner unless the scene has `contact.edge = \"step\"`. Other parts of a machine are not heard: noise is what the \
-sweep's file adds, white or pink. So figures of this data set say how methods compare on it, and not how they do on a \
-machine.";
+const NOT_MODELLED: &str = "Rings and housing bore are rigid: what lies between housing and sensor is in the modes of \
+the scene's sensors alone. There is no plastic deformation and no wear: a defect stays as it is. There is no friction \
+between elements and raceways; the cage moves as the scene says, without dynamics of its own. An oil film is there \
+only where the scene has a [film], and only before the contact. At a sharp edge the contact is stiffer than a real \
+corner unless the scene has `contact.edge = \"step\"`. Other parts of a machine are not heard: noise is what the \
+sweep's file adds, white, pink or of a measured spectrum. So figures of this data set say how methods compare on it, \
+and not how they do on a machine.";
 
 /// All that it is made of.
 pub(in crate::sweep) struct Card<'a> {

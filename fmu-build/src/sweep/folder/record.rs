@@ -44,7 +44,7 @@ impl Record {
         flat(&table, "", &mut lines);
         flat(&base.table, "scene.", &mut lines);
         let mut files: Vec<(String, String)> = Vec::new();
-        for name in &sweep.speed_profiles {
+        for name in sweep.speed_profiles.iter().chain(&sweep.noise_spectrum) {
             let path = file.parent().unwrap_or(Path::new("")).join(name);
             files.push((name.clone(), fs::read_to_string(&path).with_context(|| path.display().to_string())?));
         }
