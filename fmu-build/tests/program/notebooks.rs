@@ -249,6 +249,7 @@ fn functions_of_the_module_give_what_their_names_say() {
 const FUNCTIONS: &str = r#"
 import warnings
 import brinell
+import numpy as np
 
 assert brinell.__version__
 scene = brinell.new("mine", bearing="6206", defect="inner:1.2mm")
@@ -278,6 +279,12 @@ with warnings.catch_warnings(record=True) as said:
 assert run.recording is None
 assert [w.category for w in said] == [brinell.BrinellWarning] and "samples nothing" in str(said[0].message), said
 assert said[0].filename.endswith("functions.py")
+with open("few.toml", "w") as file:
+    file.write('scene = "6205-healthy"\nruns = 2\nstop_s = 0.01\nsettle_s = 0.005\n')
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    table = brinell.sweep("few.toml", "few", signals="array")
+assert table.name == "runs.parquet" and np.load("few/signals.npy").shape == (2, 256, 1)
 try:
     brinell.contact("er16k-tb1", on="middle", angle=0.0, force=300.0)
 except brinell.BrinellError as error:
