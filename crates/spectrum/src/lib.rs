@@ -53,25 +53,30 @@ impl Spectrum {
 
     /// The signal in a band.
     pub fn filtered(&mut self, band: Band) -> Vec<f64> {
-        self.inverse(band, Complex::new(1.0, 0.0))
+        self.inverse(|frequency| band.gain(frequency), Complex::new(1.0, 0.0))
+    }
+
+    /// The signal with each of its frequencies (Hz) multiplied by a gain.
+    pub fn shaped(&mut self, gain: impl Fn(f64) -> f64) -> Vec<f64> {
+        self.inverse(gain, Complex::new(1.0, 0.0))
     }
 
     /// Squared envelope of the signal in a band: the squared magnitude of its analytic signal.
     pub fn squared_envelope(&mut self, band: Band) -> Vec<f64> {
-        let mut envelope = self.inverse(band, Complex::new(1.0, 0.0));
+        let mut envelope = self.filtered(band);
         // The Hilbert transform turns every positive frequency by −90°.
-        let quadrature = self.inverse(band, Complex::new(0.0, -1.0));
+        let quadrature = self.inverse(|frequency| band.gain(frequency), Complex::new(0.0, -1.0));
         for (x, y) in envelope.iter_mut().zip(quadrature) {
             *x = *x * *x + y * y;
         }
         envelope
     }
 
-    fn inverse(&mut self, band: Band, factor: Complex<f64>) -> Vec<f64> {
+    fn inverse(&mut self, gain: impl Fn(f64) -> f64, factor: Complex<f64>) -> Vec<f64> {
         let step = self.rate / self.len as f64;
         let scale = 1.0 / self.len as f64;
         let mut bins: Vec<_> =
-            self.bins.iter().enumerate().map(|(k, &x)| x * factor * (scale * band.gain(k as f64 * step))).collect();
+            self.bins.iter().enumerate().map(|(k, &x)| x * factor * (scale * gain(k as f64 * step))).collect();
         // The first bin and, at even length, the last stand for themselves alone and must stay real.
         bins[0].im = 0.0;
         if self.len.is_multiple_of(2)

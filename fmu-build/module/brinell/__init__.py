@@ -287,9 +287,12 @@ def contact(scene: PathLike, *, on: str, angle: float, force: float) -> dict[str
     return found
 
 
-def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool = False) -> Path:
-    """Runs a sweep into the folder ``output`` and gives the path of its table, a Parquet file."""
-    words = ["--signals"] if signals else []
+def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool | str = False) -> Path:
+    """Runs a sweep into the folder ``output`` and gives the path of its table, a Parquet file.
+
+    With ``signals`` those of all runs are written, too: a file for each, or with ``"array"`` one of all, ``signals.npy``.
+    """
+    words = ["--signals", *[signals] * isinstance(signals, str)] if signals else []
     said = _ask("sweep", os.fspath(file), "--output", os.fspath(output), *_optional("jobs", jobs), *words)
     return Path(said.splitlines()[0])
 

@@ -25,9 +25,11 @@ motion found, unless there is one pass: that is faster, and a coarse step leaves
 """
 
 import contextlib
+import ctypes
 import functools
 import io
 import math
+import os
 import sys
 import tempfile
 import warnings
@@ -39,8 +41,30 @@ if sys.version_info < (3, 10):
 import numpy as np
 from scipy.linalg import expm
 
+
+
+@contextlib.contextmanager
+def silence():
+    """Nothing that libraries print is seen; under POSIX nor what compiled ones do, which do not ask Python where to."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        if os.name != "posix":
+            yield
+            return
+        c = ctypes.CDLL(None)
+        c.fflush(None)
+        kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 1)
+        try:
+            yield
+        finally:
+            c.fflush(None)
+            os.dup2(kept, 1)
+            os.close(kept)
+            os.close(nowhere)
+
+
 # Libraries that ROSS brings along speak at length of another one that they lack.
-with contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings():
+with silence(), warnings.catch_warnings():
     warnings.simplefilter("ignore")
     import ross
 

@@ -198,7 +198,8 @@ function spectrumTrace(spectrum) {
 
 function spectrumLayout(spectrum) {
   const { log, floor, top } = spectrum;
-  const scale = log ? { type: "log", range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
+  // Powers of ten: between them there is no room for numbers.
+  const scale = log ? { type: "log", dtick: 1, range: [Math.log10(floor), Math.log10(top)] } : { range: [0, top] };
   return {
     font: FONT, height: 480, margin: MARGIN_OF_LEGEND, hovermode: "closest", legend: LEGEND,
     xaxis: { ...GRID, range: [0, spectrum.shown], title: { text: spectrum.axis, standoff: 8 } },

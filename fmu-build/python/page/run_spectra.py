@@ -48,13 +48,15 @@ def spectrum(x, y, wide, frequencies, count, **words):
     step = float(x[1] - x[0])
     if every > 1:
         x, y = x[: len(y) // every * every], y[: len(y) // every * every].reshape(-1, every).max(axis=1)
-    beyond = np.arange(len(y)) * step * every > 0.5 * wide
-    top, middle = float(y[beyond].max()), float(np.median(y[beyond]))
+    # Heights are those of what is shown: what is far above it may be many times stronger.
+    at = np.arange(len(y)) * step * every
+    seen = y[(at > 0.5 * wide) & (at <= words["shown"])]
+    top, low = float(seen.max()), float(np.quantile(seen, 0.05))
     return {
         "step": step * every,
         "y": packed(y),
         "top": 1.5 * top if words["log"] else 1.08 * top,
-        "floor": max(0.1 * middle, 1e-7 * top) if words["log"] else 0.0,
+        "floor": max(low, 1e-7 * top) if words["log"] else 0.0,
         "marks": marks(frequencies, float(x[-1]), count),
         **words,
     }

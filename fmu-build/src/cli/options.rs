@@ -165,7 +165,7 @@ pub struct Sweep {
     /// Runs at once [default: as many as there are cores]
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 4096>)]
     pub(super) jobs: Option<u32>,
-    /// Write the signals of each run as well [default format: npy]
+    /// Write the signals of the runs as well [default format: npy]
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
     pub(super) signals: Option<sweep::SignalFormat>,
     /// Make part K of N only, on any machine; the same command without it joins all parts in the folder

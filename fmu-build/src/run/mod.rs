@@ -3,6 +3,7 @@
 
 pub mod columns;
 pub mod noise;
+pub(crate) mod noise_spectrum;
 mod page;
 pub(crate) mod run_loop;
 pub mod signals;

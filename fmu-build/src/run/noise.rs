@@ -91,6 +91,9 @@ impl Noise {
     /// # Errors
     /// A signal that does not move: no noise has a ratio to it.
     pub fn add(&self, signals: &Signals, indices: &[usize], file: u64) -> Result<()> {
+        if self.ratio.is_none() && self.floor.is_none() {
+            return Ok(());
+        }
         let mut sums = vec![[0.0; 2]; indices.len()];
         // About the first value: accelerations have no large mean, but others may.
         let mut first = Vec::new();

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
+use crate::shared::csv;
+
 /// Largest speed (Hz), as that of a scene.
 const LARGEST: f64 = 1e4;
-/// The columns.
-const NAMES: [&str; 2] = ["time_s", "speed_hz"];
 
 /// A speed at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,19 +39,10 @@ impl SpeedProfile {
     }
 
     fn parse(text: &str) -> Result<Self> {
-        let mut lines = (1..).zip(text.lines().map(|line| line.trim_start_matches('\u{feff}').trim()));
-        let (_, heading) = lines.next().unwrap_or((1, ""));
-        let names: Vec<&str> = heading.split(',').map(str::trim).collect();
-        if names != NAMES {
-            bail!("line 1 is {heading:?}: a speed profile begins with the heading time_s,speed_hz");
-        }
+        let (_, rows) = csv::pairs(text, "a speed profile", &[["time_s", "speed_hz"]])?;
         let mut points: Vec<Point> = Vec::new();
-        for (number, line) in lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')) {
-            let point = point(line, points.last().copied()).with_context(|| format!("line {number}"))?;
-            points.push(point);
-        }
-        if points.len() < 2 {
-            bail!("it has {} rows of numbers: a speed profile needs at least 2", points.len());
+        for (line, row) in rows {
+            points.push(point(row, points.last().copied()).with_context(|| format!("line {line}"))?);
         }
         Ok(Self { points })
     }
@@ -88,21 +79,8 @@ impl SpeedProfile {
     }
 }
 
-/// The point of a line after the row `before`.
-fn point(line: &str, before: Option<Point>) -> Result<Point> {
-    let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-    if cells.len() != NAMES.len() {
-        bail!("{line:?} has {} cells: it must have 2, time_s and speed_hz", cells.len());
-    }
-    let mut values = [0.0; 2];
-    for ((value, cell), name) in values.iter_mut().zip(cells).zip(NAMES) {
-        *value = cell
-            .parse()
-            .ok()
-            .filter(|value: &f64| value.is_finite())
-            .with_context(|| format!("{name} is {cell:?}: it must be a finite number"))?;
-    }
-    let [time, speed] = values;
+/// The point of a row of numbers after the row `before`.
+fn point([time, speed]: [f64; 2], before: Option<Point>) -> Result<Point> {
     match before {
         None if time != 0.0 => bail!("time_s is {time}: the first must be 0, where runs begin"),
         Some(Point { time: last, .. }) if time <= last => {

@@ -1,9 +1,10 @@
-//! CSV as Brinell writes it: one header line `name [unit]`, then numbers that read back to the same bits.
+//! CSV as Brinell writes it: one header line `name [unit]`, then numbers that read back to the same bits; and tables of
+//! two columns that users write.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result, bail};
 
 use super::whole_file;
 
@@ -35,4 +36,42 @@ pub fn table(path: &Path, names: &[(String, &str)], columns: &[Vec<f64>]) -> Res
         }
         Ok(())
     })
+}
+
+/// Two numbers, and the line that they stand on.
+pub type Pair = (usize, [f64; 2]);
+
+/// Reads a table of two columns below one of these headings; gives which it is. Empty lines and those that begin with
+/// `#` are left out.
+///
+/// # Errors
+/// What is no such table, which `what` names, with the line, the value and what it must be.
+pub fn pairs(text: &str, what: &str, headings: &[[&str; 2]]) -> Result<(usize, Vec<Pair>)> {
+    let mut lines = (1..).zip(text.lines().map(|line| line.trim_start_matches('\u{feff}').trim()));
+    let (_, heading) = lines.next().unwrap_or((1, ""));
+    let cells = |line: &str| line.split(',').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+    let Some(which) = headings.iter().position(|known| cells(heading) == *known) else {
+        let known: Vec<String> = headings.iter().map(|names| names.join(",")).collect();
+        bail!("line 1 is {heading:?}: {what} begins with the heading {}", known.join(" or "));
+    };
+    let names = headings[which];
+    let mut pairs = Vec::new();
+    for (number, line) in lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')) {
+        let cells = cells(line);
+        if cells.len() != names.len() {
+            let [one, other] = names;
+            bail!("line {number}: {line:?} has {} cells: it must have 2, {one} and {other}", cells.len());
+        }
+        let mut values = [0.0; 2];
+        for ((value, cell), name) in values.iter_mut().zip(cells).zip(names) {
+            let finite = cell.parse().ok().filter(|value: &f64| value.is_finite());
+            *value =
+                finite.with_context(|| format!("line {number}: {name} is {cell:?}: it must be a finite number"))?;
+        }
+        pairs.push((number, values));
+    }
+    if pairs.len() < 2 {
+        bail!("it has {} rows of numbers: {what} needs at least 2", pairs.len());
+    }
+    Ok((which, pairs))
 }

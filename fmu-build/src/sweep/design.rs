@@ -17,7 +17,7 @@ const NOISE_RATIO: &str = "noise_db";
 const NOISE_FLOOR: &str = "noise_rms_m_s2";
 const NOISE: &str = "noise";
 /// What names of parts' folders begin with.
-pub(super) const PART: &str = "part-";
+const PART: &str = "part-";
 
 /// What one run is.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,14 +40,22 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// Whether a run belongs to it.
-    pub(super) fn has(self, run: u64) -> bool {
-        run % self.count == self.number - 1
+    /// All runs.
+    pub(super) const ALL: Self = Self { number: 1, count: 1 };
+
+    /// How many of its runs are before this one, if it belongs to it.
+    pub(super) fn place(self, run: u64) -> Option<u64> {
+        (run % self.count == self.number - 1).then_some(run / self.count)
     }
 
     /// Its folder in that of the sweep.
     pub(super) fn folder(self) -> PathBuf {
         format!("{PART}{}-of-{}", self.number, self.count).into()
+    }
+
+    /// The part of a folder of this name, if it is one's.
+    pub(super) fn of_folder(name: &str) -> Option<Self> {
+        name.strip_prefix(PART)?.replace("-of-", "/").parse().ok()
     }
 }
 
@@ -90,7 +98,8 @@ impl Sweep {
             color: self.noise.color,
             seed: bits(self.seed, checksum(NOISE.as_bytes()), index as i64),
         };
-        let noise = (noise.ratio.is_some() || noise.floor.is_some()).then_some(noise);
+        let is_there = noise.ratio.is_some() || noise.floor.is_some() || self.noise_spectrum.is_some();
+        let noise = is_there.then_some(noise);
         Run { index, kind, profile, values, noise }
     }
 

@@ -3,21 +3,19 @@
 //! Each run is a scene of its own, a function of the file and the run's number alone, and is stepped as `run` steps any
 //! scene. So rows have the same bits on any number of threads, in any order, and after a sweep was interrupted.
 
-mod card;
 mod check;
 mod design;
 mod faults;
 mod file;
+mod folder;
 mod maps;
-mod record;
 mod rows;
 mod runner;
 mod scenes;
 mod workers;
 
 use std::collections::{BTreeSet, HashMap};
-use std::fs::{self, File, TryLockError};
-use std::io::Write;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -25,17 +23,17 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
 use indicatif::ProgressBar;
 
-use crate::interrupt::{Held, Interrupted, Temporary};
+use crate::interrupt::{Held, Interrupted};
+use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::speed_profile::SpeedProfile;
-use crate::shared::{Grid, NotWritten, Project, note, talk, whole_file};
-use card::Card;
+use crate::shared::{Grid, Project, note, talk, whole_file};
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
+pub(crate) use folder::SignalFormat;
+use folder::{Card, Folder, Record};
 use maps::Maps;
-use record::Record;
 use rows::{Journal, Row};
-pub(crate) use runner::SignalFormat;
 use runner::SweepRunner;
 use scenes::Base;
 
@@ -47,7 +45,7 @@ const TABLE: &str = "runs.parquet";
 pub(crate) struct Options {
     /// Runs at once.
     pub(crate) jobs: usize,
-    /// What each run's signals are written as; `None` for not at all.
+    /// What signals are written as; `None` for not at all.
     pub(crate) signals: Option<SignalFormat>,
     /// The part of the runs that is made here; `None` for all.
     pub(crate) part: Option<Part>,
@@ -61,6 +59,7 @@ struct Planned {
     /// Keys that take whole numbers only.
     whole: BTreeSet<String>,
     speeds: Vec<SpeedProfile>,
+    spectrum: Option<NoiseSpectrum>,
     grid: Grid,
 }
 
@@ -71,33 +70,29 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     let Planned { sweep, base, .. } = &planned;
     let columns = rows::columns::columns(sweep, &|key| planned.is_whole(key));
     let record = Record::of(sweep, base, file, &planned.text, options.signals, &columns)?;
-    let folder = &options.part.map_or(folder.to_owned(), |part| folder.join(part.folder()));
-    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    let _lock = lock(folder)?;
-    record.claim(folder)?;
-    let Folders { running, signals, _temporary } = Folders::make(folder, options)?;
-    take_parts(folder, &record, &signals)?;
-    let (mut journal, mut rows) = Journal::open(folder, &running, &columns)?;
+    let folder = Folder::open(folder, options.part, options.signals, &record)?;
+    let (mut journal, mut rows) = Journal::open(&folder.path, &folder.running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
-        bail!("{} holds run {beyond}: runs must be at least {}", folder.display(), beyond + 1);
+        bail!("{} holds run {beyond}: runs must be at least {}", folder.path.display(), beyond + 1);
     }
     let runner = SweepRunner {
         sweep,
         base,
         columns: &columns,
         speeds: &planned.speeds,
+        spectrum: planned.spectrum.as_ref(),
         grid: planned.grid,
-        written: options.signals,
-        signals: &signals,
-        running: &running,
+        folder: &folder,
         texts: Mutex::default(),
     };
-    let table = Table { path: folder.join(TABLE), columns: &columns, origin: planned.origin(), running: &running };
+    let table =
+        Table { path: folder.path.join(TABLE), columns: &columns, origin: planned.origin(), running: &folder.running };
     if !rows.is_empty() {
         table.write(&mut rows)?;
     }
-    let wanted: Vec<u64> = (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.has(run))).collect();
-    let missing = Missing::of(&rows, &wanted, &runner);
+    let wanted: Vec<u64> =
+        (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.place(run).is_some())).collect();
+    let missing = Missing::of(&rows, &wanted, &folder);
     let (maps, fingerprints) = prepare(project, &planned, &runner, &missing.runs, options.jobs)?;
     let _held = Held::new();
     let bar = bar(wanted.len() as u64, (wanted.len() - missing.runs.len()) as u64);
@@ -128,10 +123,12 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     bar.finish_and_clear();
     table.write(&mut rows)?;
     let card = Card { sweep, file, text: &planned.text, signals: options.signals, columns: &columns };
-    card.write(folder, &rows)?;
-    let _ = fs::remove_dir_all(&running);
+    card.write(&folder.path, &rows)?;
+    let failed = rows.iter().filter(|row| error_of(row).is_some()).filter_map(Row::run).collect();
+    folder.put_together(&wanted, &failed)?;
+    let _ = fs::remove_dir_all(&folder.running);
     println!("{}", table.path.display());
-    if options.signals.is_some() {
+    if let Some(signals) = folder.signals().filter(|signals| signals.exists()) {
         println!("{}", signals.display());
     }
     tell(&rows, &counts, missing.runs.len())
@@ -163,10 +160,10 @@ struct Missing {
 }
 
 impl Missing {
-    fn of(rows: &[Row], wanted: &[u64], runner: &SweepRunner<'_>) -> Self {
+    fn of(rows: &[Row], wanted: &[u64], folder: &Folder) -> Self {
         let done: BTreeSet<u64> = rows.iter().filter_map(Row::run).collect();
         let sound = rows.iter().filter(|row| error_of(row).is_none()).filter_map(Row::run);
-        let again: BTreeSet<u64> = sound.filter(|run| runner.lacks_signals(*run)).collect();
+        let again: BTreeSet<u64> = sound.filter(|run| folder.lacks_signals(*run)).collect();
         let missing = |run: &&u64| !done.contains(run) || again.contains(run);
         let runs = wanted.iter().filter(missing).copied().collect();
         Self { runs, again }
@@ -230,14 +227,17 @@ impl Planned {
             return Err(Faults(faults)).with_context(about);
         };
         let grid = Grid::even(&Experiment { stop: sweep.stop, step: 1.0 / sweep.rate }).with_context(about)?;
+        let beside = |name: &String| file.parent().unwrap_or(Path::new("")).join(name);
         let speed = |name: &String| {
-            let path = file.parent().unwrap_or(Path::new("")).join(name);
+            let path = beside(name);
             let profile = SpeedProfile::read(&path)?;
             profile.check_covers(grid.end()).with_context(|| path.display().to_string())?;
             anyhow::Ok(profile)
         };
         let speeds = sweep.speed_profiles.iter().map(speed).collect::<Result<_>>()?;
-        Ok(Self { sweep, base, text, whole, speeds, grid })
+        let spectrum = sweep.noise_spectrum.as_ref();
+        let spectrum = spectrum.map(|name| NoiseSpectrum::read(&beside(name), sweep.rate)).transpose()?;
+        Ok(Self { sweep, base, text, whole, speeds, spectrum, grid })
     }
 
     /// What the table says of where it comes from: nothing that depends on the time or the machine.
@@ -290,63 +290,6 @@ fn prepare<'p>(
         maps.prepare(&ready.scene, &ready.texts, jobs)?;
     }
     Ok((maps, fingerprints))
-}
-
-/// Where signals grow, and where they go.
-struct Folders {
-    /// Empty at first, and removed at the end.
-    running: PathBuf,
-    signals: PathBuf,
-    _temporary: Temporary,
-}
-
-impl Folders {
-    fn make(folder: &Path, options: &Options) -> Result<Self> {
-        let (running, signals) = (folder.join("running"), folder.join("signals"));
-        // What a sweep has left that was killed.
-        let _ = fs::remove_dir_all(&running);
-        let made = || fs::create_dir_all(&running).map(|()| running.clone());
-        let (_temporary, running) =
-            Temporary::made(made, PathBuf::as_path).with_context(|| running.display().to_string())?;
-        if options.signals.is_some() {
-            fs::create_dir_all(&signals).with_context(|| signals.display().to_string())?;
-        }
-        Ok(Self { running, signals, _temporary })
-    }
-}
-
-/// Adds the rows of all parts in this folder to its journal, which keeps each run once, and moves their signals here.
-fn take_parts(folder: &Path, record: &Record, signals: &Path) -> Result<()> {
-    for entry in fs::read_dir(folder).with_context(|| folder.display().to_string())? {
-        let part = entry?.path();
-        let about = || part.display().to_string();
-        if !part.file_name().is_some_and(|name| name.to_string_lossy().starts_with(design::PART)) {
-            continue;
-        }
-        let _lock = lock(&part)?;
-        record.claim(&part)?;
-        for file in fs::read_dir(part.join("signals")).into_iter().flatten() {
-            let file = file.with_context(about)?;
-            fs::rename(file.path(), signals.join(file.file_name())).with_context(about)?;
-        }
-        let mut journal =
-            File::options().create(true).append(true).open(folder.join(rows::FILE)).with_context(about)?;
-        // A row that was torn must not tear another's. Rows that cannot be read are made again.
-        let rows = [b"\n", &fs::read(part.join(rows::FILE)).unwrap_or_default()[..], b"\n"].concat();
-        journal.write_all(&rows).map_err(|error| NotWritten::new(&folder.join(rows::FILE), error))?;
-    }
-    Ok(())
-}
-
-/// Keeps other programs from sweeping in the same folder.
-fn lock(folder: &Path) -> Result<File> {
-    let path: PathBuf = folder.join("lock");
-    let file = File::create(&path).map_err(|error| NotWritten::new(&path, error))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => bail!("{}: another program sweeps in this folder", folder.display()),
-        Err(TryLockError::Error(error)) => Err(error).with_context(|| path.display().to_string()),
-    }
 }
 
 fn bar(runs: u64, done: u64) -> ProgressBar {

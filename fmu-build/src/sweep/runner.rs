@@ -11,11 +11,11 @@ use brinell::geometry::kinematics::passage_frequency;
 use brinell::scene::{DefectOn, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::statistics::mean;
-use clap::ValueEnum;
 use toml::Value;
 
 use super::design::Run;
 use super::file::Sweep;
+use super::folder::Folder;
 use super::maps::Maps;
 use super::rows::columns::envelope_name;
 use super::rows::labels::{self, carries_shaft_load, rounded};
@@ -25,35 +25,11 @@ use super::scenes::{Base, run_name};
 use crate::interrupt::Interrupted;
 use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
+use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::run_loop::{Done, RunLoop};
 use crate::run::signals::{Growing, Signals};
 use crate::run::speed_profile::SpeedProfile;
-use crate::run::table::{self, Format};
-use crate::run::wav::Wav;
-use crate::shared::{Grid, NotWritten, shipped, whole_file};
-
-/// What each run's signals are written as.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SignalFormat {
-    /// NumPy's file, a field for the time and for each sensor
-    Npy,
-    /// Apache Parquet, packed
-    Parquet,
-    /// Sound, a channel for each sensor; 1 is 1 m/s²
-    Wav,
-}
-
-impl SignalFormat {
-    /// Name of the file of a run.
-    pub(super) fn file(self, name: &str) -> String {
-        let ending = match self {
-            Self::Npy => "npy",
-            Self::Parquet => "parquet",
-            Self::Wav => "wav",
-        };
-        format!("{name}.{ending}")
-    }
-}
+use crate::shared::{Grid, NotWritten, shipped};
 
 /// All that runs share.
 pub(super) struct SweepRunner<'a> {
@@ -61,11 +37,10 @@ pub(super) struct SweepRunner<'a> {
     pub(super) base: &'a Base,
     pub(super) columns: &'a [Column],
     pub(super) speeds: &'a [SpeedProfile],
+    pub(super) spectrum: Option<&'a NoiseSpectrum>,
     pub(super) grid: Grid,
-    pub(super) written: Option<SignalFormat>,
-    /// Where signals go, and where they grow.
-    pub(super) signals: &'a Path,
-    pub(super) running: &'a Path,
+    /// Where signals grow and go.
+    pub(super) folder: &'a Folder,
     /// Texts of profiles that scenes name, once they were read.
     pub(super) texts: Mutex<HashMap<String, Arc<str>>>,
 }
@@ -78,11 +53,6 @@ pub(super) struct Ready {
 }
 
 impl SweepRunner<'_> {
-    /// Whether the signals of a run that did not fail are wanted and not there.
-    pub(super) fn lacks_signals(&self, run: u64) -> bool {
-        self.written.is_some_and(|written| !self.signals.join(written.file(&run_name(run))).exists())
-    }
-
     /// The scene of a run.
     pub(super) fn ready(&self, run: &Run) -> Result<Ready> {
         let (scene, table) = self.base.scene(self.sweep, run)?;
@@ -160,7 +130,7 @@ impl SweepRunner<'_> {
         let mut simulation = Simulation::with_shared_map(scene.clone(), texts.iter().map(|text| &**text), map)?;
         let profile = run.profile.map(|profile| &self.speeds[profile]);
         let name = run_name(run.index);
-        let own = self.running.join(&name);
+        let own = self.folder.running.join(&name);
         std::fs::create_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?;
         let columns = self.wanted(&scene, &simulation)?;
         let run_loop = RunLoop { grid: self.grid, profile, shows: false };
@@ -172,11 +142,12 @@ impl SweepRunner<'_> {
         if let Some(noise) = run.noise {
             let sensors: Vec<usize> = (1..kept.names().len()).collect();
             noise.add(&kept, &sensors, 0)?;
+            if let Some(spectrum) = self.spectrum {
+                spectrum.add(&kept, &sensors, self.sweep.rate, noise.seed)?;
+            }
         }
         self.measure(row, &scene, &done, &kept)?;
-        if let Some(written) = self.written {
-            self.write(written, &kept, &name)?;
-        }
+        self.folder.write(&kept, run.index, self.sweep.rate)?;
         Ok(std::fs::remove_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?)
     }
 
@@ -279,27 +250,6 @@ impl SweepRunner<'_> {
             put(name, Cell::Whole(column(variable)?.last().copied().unwrap_or(0.0) as i64))?;
         }
         Ok(())
-    }
-
-    /// Writes the signals beside where they grew, and moves them when they are whole: a program that is ended
-    /// leaves nothing in their folder.
-    fn write(&self, written: SignalFormat, kept: &Signals, name: &str) -> Result<()> {
-        let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
-        let column = |index: usize| table::Column { index, unit: unit(index) };
-        let columns: Vec<_> = (0..kept.names().len()).map(column).collect();
-        let whole = kept.path().with_file_name(written.file(name));
-        match written {
-            SignalFormat::Npy => {
-                std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?
-            }
-            SignalFormat::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
-            SignalFormat::Wav => {
-                let sensors: Vec<usize> = (1..kept.names().len()).collect();
-                let wav = Wav { rate: Some(self.sweep.rate), scale: 1.0 };
-                wav.write(kept, &sensors, self.sweep.rate, &whole)?;
-            }
-        }
-        whole_file::take_out(&whole, self.signals).map(drop)
     }
 }
 

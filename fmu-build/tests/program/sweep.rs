@@ -1,10 +1,12 @@
 //! `brinell sweep` as a program: equal bits however it is run, rows for runs that fail, faults with their lines.
 #![allow(clippy::unwrap_used)]
 
+mod arrays;
 mod card;
 mod ends;
 mod files;
 mod labels;
+mod noise;
 mod oracle;
 mod rings;
 
@@ -86,6 +88,7 @@ fn column(out: &Path, name: &str) -> Vec<Field> {
 fn bits(out: &Path) -> Vec<(String, Vec<u8>)> {
     let kept = ["runs.parquet", "README.md"];
     let mut files = kept.map(|name| (name.to_owned(), fs::read(out.join(name)).unwrap())).to_vec();
+    files.extend(fs::read(out.join("signals.npy")).ok().map(|array| ("signals.npy".to_owned(), array)));
     if let Ok(entries) = fs::read_dir(out.join("signals")) {
         let of = |path: PathBuf| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap());
         files.extend(entries.map(|entry| of(entry.unwrap().path())));

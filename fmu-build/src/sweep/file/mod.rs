@@ -16,7 +16,7 @@ pub(super) use kind::Kind;
 pub(super) use split::{PARTS, Split};
 
 /// Keys of the file itself, and its three tables of keys of a scene.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "scene",
     "runs",
     "seed",
@@ -29,6 +29,7 @@ const KEYS: [&str; 14] = [
     "noise_db",
     "noise_rms_m_s2",
     "noise_color",
+    "noise_spectrum",
     "split",
     "split_by",
 ];
@@ -65,6 +66,8 @@ pub(super) struct Sweep {
     /// Files with the shaft's speed over time, relative to this one.
     pub(super) speed_profiles: Vec<String>,
     pub(super) noise: NoiseLimits,
+    /// File with the spectrum of noise that every run has, relative to this one.
+    pub(super) noise_spectrum: Option<String>,
     /// Parts of the data set that runs are shared out to.
     pub(super) split: Option<Split>,
     pub(super) set: Vec<Entry<Value>>,
@@ -137,6 +140,7 @@ impl Reading<'_, '_> {
             kinds,
             speed_profiles,
             noise,
+            noise_spectrum: self.text("noise_spectrum"),
             split: None,
             set,
             grid,

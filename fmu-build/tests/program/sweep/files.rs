@@ -99,7 +99,7 @@ fn the_example_is_a_sweep_and_names_every_key() {
     let text = fs::read_to_string(&example).unwrap();
     let told = sweep(&example, &folder.join("out"), &["--signals"]);
     assert!(told.contains("48 runs, 48 of them made now, 0 failed"), "{told}");
-    let noise = ["noise_db", "noise_rms_m_s2", "noise_color"];
+    let noise = ["noise_db", "noise_rms_m_s2", "noise_color", "noise_spectrum"];
     let others = ["runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles"];
     for key in noise.into_iter().chain(others).chain(["split", "split_by"]) {
         assert!(text.contains(&format!("\n{key} = ")) || text.contains(&format!("\n# {key} = ")), "{key}");

@@ -10,34 +10,34 @@ use std::path::Path;
 use anyhow::Result;
 use clap::ValueEnum;
 
-use super::file::{PARTS, Sweep};
-use super::rows::{Cell, Column, Row};
-use super::runner::SignalFormat;
-use super::scenes::run_name;
-use super::{TABLE, error_of};
+use super::{ARRAY, SignalFormat};
 use crate::shared::{note, whole_file};
+use crate::sweep::file::{PARTS, Sweep};
+use crate::sweep::rows::{Cell, Column, Row};
+use crate::sweep::scenes::run_name;
+use crate::sweep::{TABLE, error_of};
 
 /// Name of the file.
 const FILE: &str = "README.md";
 /// How it begins: a file of that name that begins otherwise is somebody's own.
 const MARK: &str = "<!-- Written by brinell sweep, each time that it writes the table. -->\n";
 
-const NOT_MODELLED: &str = "Rings and housing bore are rigid: what lies between housing and sensor is in the modes \
-of the scene's sensors alone. There is no plastic deformation and no wear: a defect stays as it is. There is no \
-friction between elements and raceways; the cage moves as the scene says, without dynamics of its own. An oil film is \
-there only where the scene has a [film], and only before the contact. At a sharp edge the contact is stiffer than a \
-real corner unless the scene has `contact.edge = \"step\"`. Other parts of a machine are not heard: noise is what the \
-sweep's file adds, white or pink. So figures of this data set say how methods compare on it, and not how they do on a \
-machine.";
+const NOT_MODELLED: &str = "Rings and housing bore are rigid: what lies between housing and sensor is in the modes of \
+the scene's sensors alone. There is no plastic deformation and no wear: a defect stays as it is. There is no friction \
+between elements and raceways; the cage moves as the scene says, without dynamics of its own. An oil film is there \
+only where the scene has a [film], and only before the contact. At a sharp edge the contact is stiffer than a real \
+corner unless the scene has `contact.edge = \"step\"`. Other parts of a machine are not heard: noise is what the \
+sweep's file adds, white, pink or of a measured spectrum. So figures of this data set say how methods compare on it, \
+and not how they do on a machine.";
 
 /// All that it is made of.
-pub(super) struct Card<'a> {
-    pub(super) sweep: &'a Sweep,
+pub(in crate::sweep) struct Card<'a> {
+    pub(in crate::sweep) sweep: &'a Sweep,
     /// The sweep's file, and its text.
-    pub(super) file: &'a Path,
-    pub(super) text: &'a str,
-    pub(super) signals: Option<SignalFormat>,
-    pub(super) columns: &'a [Column],
+    pub(in crate::sweep) file: &'a Path,
+    pub(in crate::sweep) text: &'a str,
+    pub(in crate::sweep) signals: Option<SignalFormat>,
+    pub(in crate::sweep) columns: &'a [Column],
 }
 
 /// Runs of a class.
@@ -51,7 +51,7 @@ struct Class {
 
 impl Card<'_> {
     /// Writes it beside the table of these rows, whole or not at all; one that somebody has written stays.
-    pub(super) fn write(&self, folder: &Path, rows: &[Row]) -> Result<()> {
+    pub(in crate::sweep) fn write(&self, folder: &Path, rows: &[Row]) -> Result<()> {
         let path = folder.join(FILE);
         match fs::read(&path) {
             Ok(there) if !there.starts_with(MARK.as_bytes()) => {
@@ -94,12 +94,18 @@ impl Card<'_> {
             rows.len(),
             if self.signals.is_some() { " and signals" } else { "" },
         );
-        if let Some(signals) = self.signals {
-            let name = signals.file(&run_name(0));
-            text += &format!(
-                "\n`signals` has the time (s) and all sensors (m/s2) of each run: `{name}` is that of run 0.\n"
-            );
-        }
+        text += &match self.signals {
+            None => String::new(),
+            Some(SignalFormat::Array) => format!(
+                "\n`{ARRAY}` has the signals of all runs, for `numpy.load`: an array of runs in the order of \
+                 `{TABLE}`, samples, and sensors in the order of the scene (m/s2). The first sample is \
+                 one after {settle} s. Those of a run that failed are not numbers.\n"
+            ),
+            Some(signals) => format!(
+                "\n`signals` has the time (s) and all sensors (m/s2) of each run: `{}` is that of run 0.\n",
+                signals.file(&run_name(0))
+            ),
+        };
         text
     }
 

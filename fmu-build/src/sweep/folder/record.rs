@@ -10,22 +10,22 @@ use brinell::numerics::checksum::checksum;
 use clap::ValueEnum;
 use toml::{Table, Value};
 
-use super::file::Sweep;
-use super::rows::Column;
-use super::runner::SignalFormat;
-use super::scenes::Base;
+use super::SignalFormat;
 use crate::shared::shipped;
 use crate::shared::whole_file;
+use crate::sweep::file::Sweep;
+use crate::sweep::rows::Column;
+use crate::sweep::scenes::Base;
 
 /// Name of the file.
 const FILE: &str = "design.txt";
 
 /// All that rows and signals depend on.
-pub(super) struct Record(Vec<String>);
+pub(in crate::sweep) struct Record(Vec<String>);
 
 impl Record {
     /// Of a sweep in a file.
-    pub(super) fn of(
+    pub(in crate::sweep) fn of(
         sweep: &Sweep,
         base: &Base,
         file: &Path,
@@ -44,7 +44,7 @@ impl Record {
         flat(&table, "", &mut lines);
         flat(&base.table, "scene.", &mut lines);
         let mut files: Vec<(String, String)> = Vec::new();
-        for name in &sweep.speed_profiles {
+        for name in sweep.speed_profiles.iter().chain(&sweep.noise_spectrum) {
             let path = file.parent().unwrap_or(Path::new("")).join(name);
             files.push((name.clone(), fs::read_to_string(&path).with_context(|| path.display().to_string())?));
         }
