@@ -76,6 +76,7 @@ impl Bearing {
             element: RollingElement::Ball,
             element_count: count,
             element_diameter,
+            diameter_offsets: Vec::new(),
             pitch_diameter,
             conformity_inner: 0.52,
             conformity_outer: 0.52,

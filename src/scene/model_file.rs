@@ -17,7 +17,7 @@ use crate::numerics::checksum::checksum;
 
 const MARK: &[u8; 8] = b"BRNL-MDL";
 /// Changes with every field of a [`Scene`] and of what it consists of.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// A model file that does not give a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,6 +127,7 @@ mod tests {
         balls.recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
         let mut rollers = Scene::er16k();
         rollers.bearing = Bearing::steel_rollers(13, 7.5e-3, 9e-3, 38.5e-3);
+        rollers.bearing.diameter_offsets = Bearing::drawn_diameter_offsets(13, 1e-6 / 3.0, u64::MAX);
         (rollers.shaft.motion, rollers.shaft.load) = (Motion::Host, [0.0; 2]);
         [balls, rollers]
     }

@@ -33,10 +33,12 @@ pub(crate) fn written() -> impl Iterator<Item = (&'static str, &'static Quantity
 }
 
 /// Those of one key in one unit.
-static WRITTEN: [&Quantity; 79] = [
+static WRITTEN: [&Quantity; 81] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
+    &DIAMETER_OFFSET,
+    &DIAMETER_RMS,
     &PITCH_DIAMETER,
     &CLEARANCE,
     &INTERNAL_CLEARANCE,

@@ -71,6 +71,10 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     let defects = if defects.is_empty() { &healthy[..] } else { &defects };
     let in_space = bearing.degrees_of_freedom != DegreesOfFreedom::Two;
     let mut rows = elements(bearing);
+    let offsets = bearing.diameter_offsets.iter().map(|offset| digits(offset * 1e6)).collect::<Vec<_>>();
+    rows.extend(
+        (!offsets.is_empty()).then(|| ("Diameters beyond that, by element", format!("{} µm", offsets.join(", ")))),
+    );
     rows.extend([
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
         ("Contact law near the defect", law),

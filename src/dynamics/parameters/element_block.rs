@@ -1,7 +1,10 @@
 //! What differs from element to element, eight of them at a time.
 
+use super::model::Model;
+use crate::contact::law::{CompliantContact, ForceLaw, smooth_laws};
 use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
+use crate::scene::Bearing;
 
 /// What differs between elements, for eight of them; where there is none, all zeros.
 #[derive(Debug, Clone, Copy, Default)]
@@ -12,8 +15,13 @@ pub(in crate::dynamics) struct ElementBlock {
     pub(in crate::dynamics) sin: [f64; WIDEST],
     /// 1 where there is an element.
     pub(in crate::dynamics) present: [f64; WIDEST],
+    /// Mass (kg).
+    pub(in crate::dynamics) mass: [f64; WIDEST],
     /// 1/mass (1/kg).
     pub(in crate::dynamics) per_mass: [f64; WIDEST],
+    /// Diameter beyond the nominal one Δ (m). The element's centre is at R_o − r − Δ/2 where it touches the smooth outer
+    /// raceway, and its clearance is G − Δ.
+    pub(in crate::dynamics) larger: [f64; WIDEST],
     /// Constant K of the inner contact (N/m^n), n = 3/2 of balls and 10/9 of rollers.
     pub(in crate::dynamics) inner: [f64; WIDEST],
     /// That of the outer contact on the smooth rigid raceway; 0 for an element that is not on it.
@@ -28,16 +36,115 @@ pub(in crate::dynamics) struct ElementBlock {
     pub(in crate::dynamics) pace_by_angle: [f64; WIDEST],
 }
 
-/// All elements of a bearing at these angles (rad) ahead of the cage, of mass 1/`per_mass` (kg)
-/// and with these constants of the inner and the outer contact (N/m^n).
-pub(super) fn blocks(offsets: &[f64], per_mass: f64, [inner, outer]: [f64; 2]) -> Vec<ElementBlock> {
+/// One element by itself: how large it is, and its contacts with the inner and the outer raceway.
+#[derive(Debug, Clone)]
+pub(super) struct OwnElement {
+    /// Diameter beyond the nominal one (m).
+    larger: f64,
+    /// Mass (kg).
+    mass: f64,
+    /// Contacts as its motion has them.
+    contacts: [CompliantContact; 2],
+    /// The same with their damping, of an element in balance.
+    dampers: Option<[CompliantContact; 2]>,
+}
+
+impl OwnElement {
+    /// Each element of a bearing whose elements are unequal, with these contacts of a nominal one; none of equal ones.
+    ///
+    /// Raceways and grooves keep their radii. Of a ball that is 1 µm larger in a 6205 Hertz's constants grow by 0.12 %,
+    /// by the groove that is closer; of a roller neither the constant nor the crown changes.
+    pub(super) fn all(
+        bearing: &Bearing,
+        contacts: [&CompliantContact; 2],
+        dampers: Option<&[CompliantContact; 2]>,
+    ) -> Box<[Self]> {
+        let own = |&larger: &f64| {
+            let bearing = bearing.with_elements_larger(larger);
+            let stiffness = smooth_laws(&bearing, contacts[0].law.damping).map(|law| law.stiffness);
+            let of = |side: usize, nominal: &CompliantContact| {
+                let law = ForceLaw { stiffness: stiffness[side], ..nominal.law.clone() };
+                CompliantContact { law, ..*nominal }
+            };
+            Self {
+                larger,
+                mass: bearing.mass_of_element(),
+                contacts: [of(0, contacts[0]), of(1, contacts[1])],
+                dampers: dampers.map(|[inner, outer]| [of(0, inner), of(1, outer)]),
+            }
+        };
+        bearing.diameter_offsets.iter().map(own).collect()
+    }
+}
+
+/// All elements of a bearing at these angles (rad) ahead of the cage, of this `mass` (kg) and with these constants of
+/// the inner and the outer contact (N/m^n), but for those that are given by themselves.
+pub(super) fn blocks(offsets: &[f64], mass: f64, [inner, outer]: [f64; 2], own: &[OwnElement]) -> Vec<ElementBlock> {
     let count = offsets.len();
     let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];
     for (j, &offset) in offsets.iter().enumerate() {
         let (sin, cos) = sin_cos(offset);
         let (block, i) = (&mut blocks[j / WIDEST], j % WIDEST);
         (block.cos[i], block.sin[i], block.present[i], block.pace[i]) = (cos, sin, 1.0, 1.0);
-        (block.per_mass[i], block.inner[i], block.outer[i]) = (per_mass, inner, outer);
+        (block.mass[i], block.inner[i], block.outer[i]) = (mass, inner, outer);
+        if let Some(OwnElement { larger, mass, contacts, .. }) = own.get(j) {
+            (block.larger[i], block.mass[i]) = (*larger, *mass);
+            [block.inner[i], block.outer[i]] = [0, 1].map(|side: usize| contacts[side].law.stiffness);
+        }
+        block.per_mass[i] = 1.0 / block.mass[i];
     }
     blocks
+}
+
+impl Model {
+    /// Mass (kg) of element `j`.
+    #[inline(always)]
+    pub fn mass_of(&self, j: usize) -> f64 {
+        self.elements[j / WIDEST].mass[j % WIDEST]
+    }
+
+    /// 1/mass (1/kg) of element `j`.
+    #[inline(always)]
+    pub(in crate::dynamics) fn per_mass_of(&self, j: usize) -> f64 {
+        self.elements[j / WIDEST].per_mass[j % WIDEST]
+    }
+
+    /// Diameter (m) of element `j` beyond the nominal one.
+    #[inline(always)]
+    pub(in crate::dynamics) fn larger(&self, j: usize) -> f64 {
+        self.elements[j / WIDEST].larger[j % WIDEST]
+    }
+
+    /// Distance ρ (m) of element `j` where it touches the smooth outer raceway.
+    #[inline(always)]
+    pub fn centre_radius(&self, j: usize) -> f64 {
+        self.outer_centre_radius - 0.5 * self.larger(j)
+    }
+
+    /// Contacts of element `j` with the smooth inner and outer raceway.
+    #[inline(always)]
+    pub(in crate::dynamics) fn own_contacts(&self, j: usize) -> [&CompliantContact; 2] {
+        let nominal = || [&self.inner.contact, &self.outer.contact];
+        self.own.get(j).map_or_else(nominal, |own| own.contacts.each_ref())
+    }
+
+    /// The same with their damping, of elements in balance; without inertia of none.
+    pub(in crate::dynamics) fn own_dampers(&self, j: usize) -> Option<[&CompliantContact; 2]> {
+        let nominal = || self.dampers.as_deref().map(|dampers| dampers.each_ref());
+        self.own.get(j).map_or_else(nominal, |own| own.dampers.as_ref().map(|dampers| dampers.each_ref()))
+    }
+
+    /// Sets the compliance (m/N) in series with each outer contact.
+    pub fn set_outer_compliance(&mut self, compliance: f64) {
+        let own =
+            self.own.iter_mut().flat_map(|own| [Some(&mut own.contacts[1]), own.dampers.as_mut().map(|of| &mut of[1])]);
+        let of_all = [Some(&mut self.outer.contact), self.dampers.as_mut().map(|dampers| &mut dampers[1])];
+        of_all.into_iter().chain(own).flatten().for_each(|contact| contact.compliance = compliance);
+    }
+
+    /// Whether elements are unequal.
+    #[inline(always)]
+    pub fn is_unequal(&self) -> bool {
+        !self.own.is_empty()
+    }
 }

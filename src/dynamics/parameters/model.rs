@@ -1,6 +1,6 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
-use super::element_block::{ElementBlock, blocks};
+use super::element_block::{ElementBlock, OwnElement, blocks};
 use super::excitation::{Excitation, Frame, WholeAngle};
 use super::film::{Films, FilmsNow, OilFilms};
 use super::irregularity::{Irregularity, Lead, LeadPieces};
@@ -25,13 +25,11 @@ use std::sync::Arc;
 pub struct Model {
     /// Number of elements Z.
     pub element_count: usize,
-    /// Mass of one element (kg).
+    /// Mass of a nominal element (kg).
     pub element_mass: f64,
-    /// 1/mass of one element (1/kg).
-    pub(in crate::dynamics) inverse_element_mass: f64,
-    /// Radius of one element (m).
+    /// Radius of a nominal element (m).
     pub element_radius: f64,
-    /// R_o − r (m), the distance ρ of an element that touches the smooth outer raceway.
+    /// R_o − r (m), the distance ρ of a nominal element that touches the smooth outer raceway.
     pub outer_centre_radius: f64,
     /// Radial clearance G_r (m) without oil films, which take some of it ([`Self::clearance`]).
     pub radial_clearance: f64,
@@ -73,6 +71,8 @@ pub struct Model {
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
     pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
+    /// Each element by itself; none of a bearing of equal ones.
+    pub(super) own: Box<[OwnElement]>,
 }
 
 /// It is parameters and nothing else, so that one serves all that runs in a process.
@@ -95,7 +95,9 @@ impl Model {
         });
         let [inner_law, outer_law] = if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
         let stiffness = [inner_law.stiffness, outer_law.stiffness];
-        let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
+        let contact = |law, compliance| CompliantContact { law, compliance };
+        let (inside, outside) = (contact(inner_law, 0.0), contact(outer_law, bearing.outer_compliance));
+        let own = OwnElement::all(bearing, [&inside, &outside], dampers.as_deref());
         let element_radius = bearing.element_radius();
         let (turns, layout) = (scene.turns(), Layout::new(scene));
         let count = bearing.element_count;
@@ -110,12 +112,11 @@ impl Model {
         Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
-            inverse_element_mass: 1.0 / bearing.mass_of_element(),
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: raceway(inner_law, 0.0, inner),
-            outer: raceway(outer_law, bearing.outer_compliance, outer),
+            inner: Raceway { contact: inside, defects: inner },
+            outer: Raceway { contact: outside, defects: outer },
             defective,
             gravity: scene.gravity.into(),
             shaft: scene.shaft,
@@ -126,7 +127,8 @@ impl Model {
             layout,
             may_have_inner_defects: scene.has_defect_inside(),
             has_frames,
-            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),
+            elements: blocks(&offsets, bearing.mass_of_element(), stiffness, &own).into(),
+            own,
             offsets,
             irregularity,
             films: Films::of(scene).map(Box::new),
@@ -190,9 +192,10 @@ impl Model {
         self.offsets[j]
     }
 
-    /// Whether elements are evenly spaced on a cage that turns evenly.
+    /// Whether elements are alike and evenly spaced on a cage that turns evenly.
     pub fn is_even(&self) -> bool {
         self.irregularity.is_none()
+            && !self.is_unequal()
             && self.offsets.iter().enumerate().all(|(j, &offset)| offset == j as f64 * TAU / self.element_count as f64)
     }
 
@@ -201,10 +204,15 @@ impl Model {
         self.irregularity.is_some()
     }
 
-    /// Whether each element needs what the plain bearing of dry contacts in an even cage and in the plane does not.
+    /// Whether each element needs what the plain bearing of equal elements, dry contacts, in an even cage and in the
+    /// plane does not.
     #[inline(always)]
     pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
-        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some() || self.space.is_some()
+        self.irregularity.is_some()
+            || self.films.is_some()
+            || self.dampers.is_some()
+            || self.space.is_some()
+            || self.is_unequal()
     }
 
     /// Whether elements are in radial balance at every instant, without inertia.
@@ -219,15 +227,15 @@ impl Model {
         self.films.as_ref().map(|films| films.at(excitation.relative_speed.at(tau)))
     }
 
-    /// What separates a raceway from an element pressed to the other (m), films included.
+    /// What separates a raceway from a nominal element pressed to the other (m), films included.
     #[inline(always)]
     pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
         films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
     }
 
-    /// As [`Self::clearance`], for films with derivatives.
-    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, films: Option<&OilFilms<T>>) -> T {
-        let clearance = T::from(self.radial_clearance);
+    /// That of element `j`, for films with derivatives.
+    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, j: usize, films: Option<&OilFilms<T>>) -> T {
+        let clearance = T::from(self.radial_clearance - self.larger(j));
         films.map_or(clearance, |films| clearance - films.together)
     }
 

@@ -88,6 +88,20 @@ pub const ELEMENT_COUNT: Quantity =
     quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
 pub const ELEMENT_DIAMETER: Quantity =
     quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
+pub const DIAMETER_OFFSET: Quantity = quantity(
+    "diameter of an element beyond the nominal one",
+    "bearing.element_diameter_offsets_um",
+    1e6,
+    Inclusive(-2e3),
+    Inclusive(2e3),
+);
+pub const DIAMETER_RMS: Quantity = quantity(
+    "root mean square of the diameters about the nominal one",
+    "bearing.element_diameter_rms_um",
+    1e6,
+    Inclusive(0.0),
+    Inclusive(2e3),
+);
 pub const ROLLER_LENGTH: Quantity =
     quantity("effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3));
 pub const ROLLER_LAMINAE: Quantity =

@@ -95,6 +95,9 @@ fn is_of_dimensions(error: &SceneError) -> bool {
                 | BearingError::NoInnerRaceway { .. }
                 | BearingError::NoRoom { .. }
                 | BearingError::TooLoose { .. }
+                | BearingError::DiameterCount { .. }
+                | BearingError::TooUnequal { .. }
+                | BearingError::UnequalElement { .. }
         ),
         SceneError::Freedom(of) => matches!(
             of,

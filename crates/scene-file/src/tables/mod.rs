@@ -10,6 +10,7 @@
 //! | `gravity_m_s2` | `[0, -9.81]`; a third number is along z |
 //! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
 //! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
+//! | `bearing.element_diameter_offsets_um`, or `.element_diameter_rms_um` and `.element_diameter_seed` | equal elements |
 //! | `bearing.catalogue` | none: dimensions and material are needed; or a name, such as `"6205"` or `"NU205"` |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
@@ -60,6 +61,7 @@
 mod bearing;
 mod cage;
 mod defects;
+mod diameters;
 mod faults;
 mod film;
 mod one_or_more;

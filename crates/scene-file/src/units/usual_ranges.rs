@@ -27,11 +27,16 @@ const DENSITIES: Range = [1e3, 25e3];
 const DIAMETERS: Range = [0.3, 300.0];
 const PITCHES: Range = [2.0, 5000.0];
 
-const USUAL: [Usual; 31] = [
+const USUAL: [Usual; 32] = [
     Usual {
         keys: &["bearing.element_diameter_mm"],
         range: Dimensions::diameters,
         source: "assumed: of miniature to large bearings, and room for no more than twenty elements between two",
+    },
+    Usual {
+        keys: &["bearing.element_diameter_offsets_um", "bearing.element_diameter_rms_um"],
+        range: |_| Some([1e-3, 20.0]),
+        source: "assumed: ISO 3290 allows 0.5 um in a lot of grade 10 and 1.4 um in one of grade 28",
     },
     Usual {
         keys: &["bearing.pitch_diameter_mm"],

@@ -52,6 +52,9 @@ pub(crate) fn lively_with(
         let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
         scene.cage.irregularity = Some(CageIrregularity { offsets, drawn: None, jitter: 0.02, wander: 0.01, seed: 5 });
     }
+    if damping == Damping::HuntCrossley(0.0) {
+        scene.bearing.diameter_offsets = (0..9).map(|j| 1e-6 * (f64::from(j % 4) - 1.5)).collect();
+    }
     // One sensor, or several that swing along other axes.
     if let Damping::Proportional(_) = damping {
         let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
@@ -148,7 +151,8 @@ pub(crate) const MOTIONS: [[Motion; 2]; 4] = [
     [Motion::Host, Motion::Host],
 ];
 
-/// With each of them comes something else: a cage that is not even, several sensors, oil films.
+/// With each of them comes something else: elements of unequal size, a cage that is not even, several sensors, oil
+/// films.
 pub(crate) const DAMPINGS: [Damping; 4] =
     [Damping::HuntCrossley(0.0), Damping::HuntCrossley(5.0), Damping::Proportional(1e-5), Damping::HuntCrossley(2.0)];
 
