@@ -31,3 +31,4 @@ mod stiffness;
 #[path = "../support/mod.rs"]
 mod support;
 mod unequal_elements;
+mod waviness;

@@ -7,7 +7,7 @@ mod variables;
 use anyhow::Result;
 use brinell::scene::{
     Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, DegreesOfFreedom, Film, Motion, Ring, RollerProfile,
-    Scene, Sensor,
+    Scene, Sensor, Waviness, WavyBody,
 };
 use brinell::simulation::Method;
 use minijinja::context;
@@ -82,6 +82,7 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     ]);
     rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));
     rows.extend(defects.iter().cloned());
+    rows.extend(scene.waviness.iter().map(waves_row));
     rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft, in_space)),
         ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
@@ -161,6 +162,17 @@ fn defect_row(defect: &Defect) -> (&'static str, String) {
     );
     let what = if matches!(defect.shape, DefectShape::Profile(_)) { "profile" } else { "spall" };
     (on, format!("{element}{what} at {angle}, {shape}"))
+}
+
+/// Waves of one order around a body.
+fn waves_row(waves: &Waviness) -> (&'static str, String) {
+    let of = match waves.on {
+        WavyBody::Outer => "outer raceway".to_owned(),
+        WavyBody::Inner => "inner raceway, which turns with the shaft".to_owned(),
+        WavyBody::Element(element) => format!("element {}, angle from where it faces outwards", element + 1),
+    };
+    let (order, height) = (waves.order, digits(waves.amplitude * 1e6));
+    ("Waviness", format!("{of}: order {order}, {height} µm, a crest at {}", degrees(waves.crest)))
 }
 
 fn ring(ring: &Ring, in_space: bool) -> String {

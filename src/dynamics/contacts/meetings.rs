@@ -9,8 +9,8 @@ use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
-    /// Where element `j` at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
-    /// outer ring's, with this `clearance` of a nominal element between the raceways.
+    /// Where element `j` at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before
+    /// the outer ring's, with this `clearance` of a nominal element between the raceways.
     #[inline]
     pub(in crate::dynamics) fn inner_gap(
         &self,
@@ -82,8 +82,9 @@ impl Model {
     /// Cells of the contacts of element `j` with the inner and with the outer raceway: of the raceway, then its own.
     pub(in crate::dynamics) fn cells_of(&self, cells: &Cells, j: usize) -> [[u32; 2]; 2] {
         let own = self.defective.iter().position(|defective| defective.element == j);
-        let own = own.map_or([SMOOTH; 2], |k| cells.own[k]);
-        [[cells.inner[j], own[0]], [cells.outer[j], own[1]]]
+        let own = own
+            .map_or([SMOOTH; 2], |k| [0, 1].map(|side: usize| self.defective[k].defects[side].met(cells.own[k][side])));
+        [[self.inner.defects.met(cells.inner[j]), own[0]], [self.outer.defects.met(cells.outer[j]), own[1]]]
     }
 
     /// Cells of all contacts at `tau` for a state.

@@ -1,6 +1,5 @@
 //! What differs from element to element, eight of them at a time.
 
-use super::model::Model;
 use crate::contact::law::{CompliantContact, ForceLaw, smooth_laws};
 use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
@@ -19,8 +18,8 @@ pub(in crate::dynamics) struct ElementBlock {
     pub(in crate::dynamics) mass: [f64; WIDEST],
     /// 1/mass (1/kg).
     pub(in crate::dynamics) per_mass: [f64; WIDEST],
-    /// Diameter beyond the nominal one Δ (m). The element's centre is at R_o − r − Δ/2 where it touches the smooth outer
-    /// raceway, and its clearance is G − Δ.
+    /// Diameter beyond the nominal one Δ (m): the element's centre is at R_o − r − Δ/2 where it touches the smooth
+    /// outer raceway, and its clearance is G − Δ.
     pub(in crate::dynamics) larger: [f64; WIDEST],
     /// Constant K of the inner contact (N/m^n), n = 3/2 of balls and 10/9 of rollers.
     pub(in crate::dynamics) inner: [f64; WIDEST],
@@ -38,15 +37,15 @@ pub(in crate::dynamics) struct ElementBlock {
 
 /// One element by itself: how large it is, and its contacts with the inner and the outer raceway.
 #[derive(Debug, Clone)]
-pub(super) struct OwnElement {
+pub(in crate::dynamics) struct OwnElement {
     /// Diameter beyond the nominal one (m).
     larger: f64,
     /// Mass (kg).
     mass: f64,
     /// Contacts as its motion has them.
-    contacts: [CompliantContact; 2],
+    pub(in crate::dynamics) contacts: [CompliantContact; 2],
     /// The same with their damping, of an element in balance.
-    dampers: Option<[CompliantContact; 2]>,
+    pub(in crate::dynamics) dampers: Option<[CompliantContact; 2]>,
 }
 
 impl OwnElement {
@@ -94,57 +93,4 @@ pub(super) fn blocks(offsets: &[f64], mass: f64, [inner, outer]: [f64; 2], own: 
         block.per_mass[i] = 1.0 / block.mass[i];
     }
     blocks
-}
-
-impl Model {
-    /// Mass (kg) of element `j`.
-    #[inline(always)]
-    pub fn mass_of(&self, j: usize) -> f64 {
-        self.elements[j / WIDEST].mass[j % WIDEST]
-    }
-
-    /// 1/mass (1/kg) of element `j`.
-    #[inline(always)]
-    pub(in crate::dynamics) fn per_mass_of(&self, j: usize) -> f64 {
-        self.elements[j / WIDEST].per_mass[j % WIDEST]
-    }
-
-    /// Diameter (m) of element `j` beyond the nominal one.
-    #[inline(always)]
-    pub(in crate::dynamics) fn larger(&self, j: usize) -> f64 {
-        self.elements[j / WIDEST].larger[j % WIDEST]
-    }
-
-    /// Distance ρ (m) of element `j` where it touches the smooth outer raceway.
-    #[inline(always)]
-    pub fn centre_radius(&self, j: usize) -> f64 {
-        self.outer_centre_radius - 0.5 * self.larger(j)
-    }
-
-    /// Contacts of element `j` with the smooth inner and outer raceway.
-    #[inline(always)]
-    pub(in crate::dynamics) fn own_contacts(&self, j: usize) -> [&CompliantContact; 2] {
-        let nominal = || [&self.inner.contact, &self.outer.contact];
-        self.own.get(j).map_or_else(nominal, |own| own.contacts.each_ref())
-    }
-
-    /// The same with their damping, of elements in balance; without inertia of none.
-    pub(in crate::dynamics) fn own_dampers(&self, j: usize) -> Option<[&CompliantContact; 2]> {
-        let nominal = || self.dampers.as_deref().map(|dampers| dampers.each_ref());
-        self.own.get(j).map_or_else(nominal, |own| own.dampers.as_ref().map(|dampers| dampers.each_ref()))
-    }
-
-    /// Sets the compliance (m/N) in series with each outer contact.
-    pub fn set_outer_compliance(&mut self, compliance: f64) {
-        let own =
-            self.own.iter_mut().flat_map(|own| [Some(&mut own.contacts[1]), own.dampers.as_mut().map(|of| &mut of[1])]);
-        let of_all = [Some(&mut self.outer.contact), self.dampers.as_mut().map(|dampers| &mut dampers[1])];
-        of_all.into_iter().chain(own).flatten().for_each(|contact| contact.compliance = compliance);
-    }
-
-    /// Whether elements are unequal.
-    #[inline(always)]
-    pub fn is_unequal(&self) -> bool {
-        !self.own.is_empty()
-    }
 }

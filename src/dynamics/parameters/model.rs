@@ -2,7 +2,7 @@
 
 use super::element_block::{ElementBlock, OwnElement, blocks};
 use super::excitation::{Excitation, Frame, WholeAngle};
-use super::film::{Films, FilmsNow, OilFilms};
+use super::film::{Films, FilmsNow};
 use super::irregularity::{Irregularity, Lead, LeadPieces};
 use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
@@ -13,11 +13,11 @@ use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::contact::near_defect::{LoveSolvers, NearDefect};
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
-use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned_by};
 use crate::numerics::sin_cos;
-use crate::scene::{Damping, ElementInertia, Ring, Scene};
-use std::f64::consts::TAU;
+use crate::scene::{Damping, ElementInertia, Ring, Scene, WavyBody};
+use crate::surface::Waves;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Parameters of the equations of motion. What an instant or a solution needs besides is with those who ask.
@@ -37,7 +37,7 @@ pub struct Model {
     pub inner: Raceway,
     /// The outer raceway.
     pub outer: Raceway,
-    /// Elements with defects.
+    /// Elements with defects or waves.
     pub defective: Vec<DefectiveElement>,
     /// Gravity on the elements (m/s²).
     pub gravity: Vector,
@@ -53,7 +53,7 @@ pub struct Model {
     pub ratios: Ratios,
     /// Layout of the state vector.
     pub layout: Layout,
-    /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
+    /// Whether the scene has a defect or waves that contacts with the inner raceway meet, be they computed yet or not.
     pub may_have_inner_defects: bool,
     /// Angle of each element ahead of the cage (rad).
     offsets: Vec<f64>,
@@ -72,7 +72,7 @@ pub struct Model {
     /// What differs from element to element, eight at a time.
     pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
     /// Each element by itself; none of a bearing of equal ones.
-    pub(super) own: Box<[OwnElement]>,
+    pub(in crate::dynamics) own: Box<[OwnElement]>,
 }
 
 /// It is parameters and nothing else, so that one serves all that runs in a process.
@@ -108,8 +108,7 @@ impl Model {
         let irregularity = scene.cage.irregularity.as_ref();
         let irregularity =
             irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle)).map(Box::new);
-        let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
-        Self {
+        let mut model = Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
             element_radius,
@@ -125,8 +124,8 @@ impl Model {
             sensor_modes: SensorModes::new(scene, layout.sensors),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout,
-            may_have_inner_defects: scene.has_defect_inside(),
-            has_frames,
+            may_have_inner_defects: scene.has_defect_inside() || scene.is_wavy_inside(),
+            has_frames: false,
             elements: blocks(&offsets, bearing.mass_of_element(), stiffness, &own).into(),
             own,
             offsets,
@@ -134,6 +133,31 @@ impl Model {
             films: Films::of(scene).map(Box::new),
             dampers,
             space: Space::of(scene),
+        };
+        model.put_waves(scene);
+        model.has_frames = turns && !model.all_defects().all(Defects::is_smooth);
+        model
+    }
+
+    /// Puts the waves of the scene's bodies where contacts meet them.
+    fn put_waves(&mut self, scene: &Scene) {
+        self.inner.defects.set_waves(Waves::of(scene, WavyBody::Inner, 0.0));
+        self.outer.defects.set_waves(Waves::of(scene, WavyBody::Outer, 0.0));
+        let start = WholeAngle::in_first_turn(scene.cage.initial_angle);
+        for element in 0..self.element_count {
+            // At the start an element's angle 0 faces the outer raceway, and its other side the inner one.
+            let facing = self.element_angle(element, start);
+            let waves = [facing - PI, facing].map(|zero| Waves::of(scene, WavyBody::Element(element), zero));
+            if waves[0].is_none() {
+                continue;
+            }
+            let known = self.defective.iter().position(|own| own.element == element);
+            let at = known.unwrap_or(self.defective.len());
+            if known.is_none() {
+                let defects = [(); 2].map(|()| Defects::new(Frame::Spin, []));
+                self.defective.push(DefectiveElement { element, defects, mark: facing });
+            }
+            self.defective[at].defects.iter_mut().zip(waves).for_each(|(defects, waves)| defects.set_waves(waves));
         }
     }
 
@@ -199,6 +223,12 @@ impl Model {
             && self.offsets.iter().enumerate().all(|(j, &offset)| offset == j as f64 * TAU / self.element_count as f64)
     }
 
+    /// Whether elements are unequal.
+    #[inline(always)]
+    pub fn is_unequal(&self) -> bool {
+        !self.own.is_empty()
+    }
+
     /// Whether elements move against each other on the cage, or the cage's speed wanders.
     pub fn is_uneven(&self) -> bool {
         self.irregularity.is_some()
@@ -231,12 +261,6 @@ impl Model {
     #[inline(always)]
     pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
         films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
-    }
-
-    /// That of element `j`, for films with derivatives.
-    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, j: usize, films: Option<&OilFilms<T>>) -> T {
-        let clearance = T::from(self.radial_clearance - self.larger(j));
-        films.map_or(clearance, |films| clearance - films.together)
     }
 
     /// What element `j` is ahead of its position in a cage that turns evenly and is at this angle.

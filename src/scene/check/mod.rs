@@ -18,6 +18,7 @@ mod freedom;
 pub mod quantity;
 mod remark;
 mod roller;
+mod waviness;
 
 pub use remark::Remark;
 
@@ -64,6 +65,7 @@ impl Scene {
             faults.passes(self.check_balls_only());
             faults.passes(self.check_inertia());
             faults.passes(self.check_unequal());
+            faults.passes(self.check_waviness());
         }
         let bearing = Some(&self.bearing).filter(|_| sound);
         for (index, defect) in self.defects.iter().enumerate() {

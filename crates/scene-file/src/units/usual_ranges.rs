@@ -27,7 +27,7 @@ const DENSITIES: Range = [1e3, 25e3];
 const DIAMETERS: Range = [0.3, 300.0];
 const PITCHES: Range = [2.0, 5000.0];
 
-const USUAL: [Usual; 32] = [
+const USUAL: [Usual; 33] = [
     Usual {
         keys: &["bearing.element_diameter_mm"],
         range: Dimensions::diameters,
@@ -123,6 +123,11 @@ const USUAL: [Usual; 32] = [
         keys: &["defect.depth_um"],
         range: |of| of.diameter.map(|d| [0.5, 100.0 * d]),
         source: "assumed: from roughness to a tenth of the element's diameter",
+    },
+    Usual {
+        keys: &["waviness.amplitude_um"],
+        range: |_| Some([1e-3, 100.0]),
+        source: "assumed: from ground raceways to rings that their seats press out of round",
     },
     Usual { keys: &["defect.edge_slope_deg"], range: |_| Some([2.0, 90.0]), source: "assumed" },
     Usual {
