@@ -3,7 +3,7 @@
 use super::{
     AxialSupport, Bearing, Cage, CageIrregularity, Contact, ContactEdge, ContactLaw, Damping, Defect, DefectShape,
     DegreesOfFreedom, ElementInertia, Experiment, Film, Gyroscopic, Motion, Recorder, RepeatedInputs, Ring, Roller,
-    RollerProfile, RollingElement, Scene, SceneError, Sensor, TiltSupport,
+    RollerProfile, RollingElement, Scene, SceneError, Sensor, TiltSupport, Waviness,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -49,6 +49,7 @@ impl Scene {
             film: None,
             cage: Cage { slip: 0.0, spin_slip: 0.0, initial_angle: -FRAC_PI_2, irregularity: None },
             defects: Vec::new(),
+            waviness: Vec::new(),
             shaft: Ring::default_shaft(),
             shaft_speed: 0.0,
             shaft_initial_angle: 0.0,
@@ -76,6 +77,7 @@ impl Bearing {
             element: RollingElement::Ball,
             element_count: count,
             element_diameter,
+            diameter_offsets: Vec::new(),
             pitch_diameter,
             conformity_inner: 0.52,
             conformity_outer: 0.52,
@@ -248,6 +250,13 @@ impl SceneBuilder {
         self
     }
 
+    /// Waves of one order more around a body.
+    #[must_use]
+    pub fn waviness(mut self, waves: Waviness) -> Self {
+        self.scene.waviness.push(waves);
+        self
+    }
+
     /// Law of the contacts near the defect.
     #[must_use]
     pub fn law(mut self, law: ContactLaw) -> Self {
@@ -379,11 +388,8 @@ impl Scene {
     /// The shipped scene `er16k-tb1`, for unit tests.
     pub(crate) fn er16k() -> Self {
         let conformity = 8.19 / (2.0 * 7.94);
-        let bearing = Bearing {
-            conformity_inner: conformity,
-            conformity_outer: conformity,
-            ..Bearing::steel_balls(9, 7.94e-3, 39.32e-3)
-        };
+        let balls = Bearing::steel_balls(9, 7.94e-3, 39.32e-3);
+        let bearing = Bearing { conformity_inner: conformity, conformity_outer: conformity, ..balls };
         let length = 15.8f64.to_radians() * bearing.outer_raceway_radius();
         let scene = Self::builder(bearing).name("er16k-tb1").cage(0.0, (-105.1f64).to_radians());
         let scene = scene.spall(-FRAC_PI_2, length, 100e-6).shaft_speed(20.0 * std::f64::consts::PI);

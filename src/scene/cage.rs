@@ -1,6 +1,6 @@
 //! The cage: how fast it turns, and what makes passages uneven.
 
-use crate::numerics::counter_noise::gaussian;
+use crate::numerics::counter_noise::{centred, centred_draw};
 use serde::{Deserialize, Serialize};
 
 /// Kinematics of the cage.
@@ -40,12 +40,7 @@ impl CageIrregularity {
 
     /// Offsets of `count` elements drawn with a seed, of this root mean square (rad) and of sum 0.
     pub fn drawn_offsets(count: usize, rms: f64, seed: u64) -> Vec<f64> {
-        let drawn: Vec<f64> = (0..count).map(|j| gaussian(seed, 0, j as i64)).collect();
-        let centred = Self::centred(&drawn);
-        let present = (centred.iter().map(|x| x * x).sum::<f64>() / count as f64).sqrt();
-        // One element alone has nothing to be uneven against.
-        let scale = if present > 0.0 { rms / present } else { 0.0 };
-        centred.iter().map(|x| scale * x).collect()
+        centred_draw(count, rms, seed, 0)
     }
 
     /// Takes another seed, and draws offsets anew that were drawn.
@@ -58,7 +53,6 @@ impl CageIrregularity {
 
     /// Offsets (rad) less their mean, so that their sum is 0.
     pub fn centred(offsets: &[f64]) -> Vec<f64> {
-        let mean = offsets.iter().sum::<f64>() / offsets.len() as f64;
-        offsets.iter().map(|x| x - mean).collect()
+        centred(offsets)
     }
 }

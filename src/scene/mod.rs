@@ -9,12 +9,12 @@ mod builder;
 mod cage;
 mod check;
 mod contact;
-mod defect;
 mod error;
 mod messages;
 pub mod model_file;
 mod ring;
 mod sensor;
+mod surfaces;
 
 pub use bearing::{
     Bearing, Crown, DegreesOfFreedom, ElementInertia, Gyroscopic, Roller, RollerProfile, RollingElement,
@@ -23,11 +23,11 @@ pub use builder::SceneBuilder;
 pub use cage::{Cage, CageIrregularity};
 pub use check::{Remark, quantity};
 pub use contact::{Contact, ContactEdge, ContactLaw, Damping, Film};
-pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
-pub use error::{BearingError, DefectError, FreedomError, LONGEST_NAME, SceneError};
+pub use error::{BearingError, DefectError, FreedomError, LONGEST_NAME, SceneError, WavinessError};
 pub use messages::{Bound, Limits, Plain, nearest};
 pub use ring::{AxialSupport, Motion, RepeatedInputs, Ring, TiltSupport};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
+pub use surfaces::{Defect, DefectLimit, DefectOn, DefectShape, Waviness, WavyBody};
 
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +52,8 @@ pub struct Scene {
     pub cage: Cage,
     /// The defects; none for a healthy bearing.
     pub defects: Vec<Defect>,
+    /// Waves around bodies; none for round ones.
+    pub waviness: Vec<Waviness>,
     /// The inner ring.
     pub shaft: Ring,
     /// Shaft speed (rad/s), the start value of the input `shaft.speed`.
@@ -87,9 +89,15 @@ impl Scene {
         self.defects.iter().any(|defect| defect.on != DefectOn::Outer)
     }
 
-    /// Whether the inner ring bears a defect.
-    pub fn has_defect_of_inner_ring(&self) -> bool {
+    /// Whether contacts with the inner raceway meet waves: of the inner ring or of an element.
+    pub fn is_wavy_inside(&self) -> bool {
+        self.waviness.iter().any(|waves| waves.on != WavyBody::Outer)
+    }
+
+    /// Whether the inner ring bears a defect or waves, so that it matters how it turns.
+    pub fn marks_inner_ring(&self) -> bool {
         self.defects.iter().any(|defect| defect.on == DefectOn::Inner)
+            || self.waviness.iter().any(|waves| waves.on == WavyBody::Inner)
     }
 
     /// The number of the first defect of an element, both from 0.
@@ -114,10 +122,13 @@ impl Scene {
         names
     }
 
-    /// Whether a ring that turns, or an element's spin, matters: for a defect anywhere but on an outer ring at rest,
-    /// and for an outer ring that turns.
+    /// Whether a ring that turns, or an element's spin, matters: for a defect or waves anywhere but on an outer ring at
+    /// rest, and for an outer ring that turns.
     pub fn turns(&self) -> bool {
-        self.has_defect_inside() || self.housing_speed.is_some() || self.housing_initial_angle != 0.0
+        self.has_defect_inside()
+            || self.is_wavy_inside()
+            || self.housing_speed.is_some()
+            || self.housing_initial_angle != 0.0
     }
 
     /// The variable that shows what a sensor measures, by its number from 0: `sensor.acceleration` of one alone.

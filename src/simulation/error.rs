@@ -60,6 +60,22 @@ pub enum SimulationError {
     /// A state that names cells of a raceway which this model does not have.
     #[error("the state is not of this model: it has an element in a part of the defect that is not there")]
     ForeignState,
+    /// Waves so short that a contact averages them.
+    #[error(
+        "number of waves around a body (waviness.order) is {order}: it must be at most {limit}, five lengths of the \
+         contact of {contact_mm:.3} mm at {force} N to a wave, or the contact averages them; give shorter ones as a \
+         defect with defect.profile"
+    )]
+    ShortWaves {
+        /// Waves in a turn.
+        order: u32,
+        /// The most there may be.
+        limit: f64,
+        /// Length of the contact along rolling (mm).
+        contact_mm: f64,
+        /// The largest force for which contacts are prepared (N).
+        force: f64,
+    },
     /// Oil films so thick that they press the contacts beyond the elastic range.
     #[error(
         "oil films of {films_um:.3} um at {speed_hz} Hz leave a radial clearance of {clearance_um:.3} um: it must be \

@@ -22,6 +22,7 @@ mod profile;
 pub(crate) mod roller_profile;
 mod topography;
 mod trace;
+mod waviness;
 
 pub use error::SurfaceError;
 pub use interval::Interval;
@@ -29,6 +30,7 @@ pub(crate) use profile::Corner;
 pub use profile::Profile;
 pub use roller_profile::with_roller_profile;
 pub use topography::Topography;
+pub use waviness::Waves;
 
 use crate::scene::{Bearing, Defect, DefectOn, DefectShape, Scene};
 

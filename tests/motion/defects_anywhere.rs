@@ -2,11 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, spall};
+use crate::support::energy::exchanged_and_lost;
 use crate::support::{Named, map_of};
 use brinell::contact::rolling::RacewaySide;
-use brinell::dynamics::contacts::Forces;
-use brinell::dynamics::parameters::Frame;
-use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, Ring, Scene};
 use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -147,36 +145,6 @@ fn a_state_put_back_continues_with_the_same_bits() {
     }
 }
 
-/// All energy of a held bearing: shaft, elements, contacts, load and gravity (J); and what leaves it by forced motions
-/// (W).
-fn energy_and_power(bearing: &mut Named, scene: &Scene) -> (f64, f64) {
-    let cage_torque = bearing.get("cage.torque");
-    let (model, excitation) = bearing.0.equations();
-    let state = bearing.0.state_vector();
-    let cells = model.cells_at(&excitation, 0.0, state);
-    let mut forces = Forces::new(model.element_count);
-    model.derivative(&excitation, 0.0, &cells, state, &mut vec![0.0; state.len()], &mut forces);
-    let (hertz, layout) = (HertzConstants::of(&scene.bearing), &model.layout);
-    let stored = |k: f64, approach: f64| 0.4 * k * approach.max(0.0).powf(2.5);
-    let i = layout.shaft.unwrap();
-    let mut energy = 0.5 * scene.shaft.mass * (state[i + 2].powi(2) + state[i + 3].powi(2));
-    energy -= scene.shaft.load[0] * state[i] + scene.shaft.load[1] * state[i + 1];
-    let speed = excitation.cage.0[1];
-    for j in 0..model.element_count {
-        let (rho, w) = (model.outer_centre_radius + state[j], state[layout.radial_velocity + j]);
-        let angle = excitation.cage_start + model.element_offset(j);
-        energy += 0.5 * model.element_mass * (w * w + (rho * speed).powi(2));
-        energy -= model.element_mass * rho * (scene.gravity[0] * angle.cos() + scene.gravity[1] * angle.sin());
-        energy += stored(hertz.inner, forces.contacts.inner_approach[j]);
-        energy += stored(hertz.outer, forces.contacts.outer_approach[j]);
-    }
-    let spin = excitation.frames[Frame::Spin as usize].since.0[1];
-    let power = forces.torque_on(Frame::Shaft) * scene.shaft_speed
-        + cage_torque * speed
-        + forces.torque_on(Frame::Spin) * (spin - speed);
-    (energy, power)
-}
-
 #[test]
 fn energy_goes_nowhere_but_into_the_forced_motions_under_law_map() {
     for (mut scene, from) in [(inner(), 4.7e-3), (element(1.2e-3), 3.6e-3)] {
@@ -189,16 +157,7 @@ fn energy_goes_nowhere_but_into_the_forced_motions_under_law_map() {
             Named(brinell::simulation::Simulation::with_map(scene.clone(), None, map.as_deref()).unwrap());
         bearing.0.initialize(0.0).unwrap();
         bearing.run(1e-4, (from / 1e-4) as usize);
-        let (start, mut power) = energy_and_power(&mut bearing, &scene);
-        let (step, mut left, mut drift, mut moved) = (1e-6, 0.0, 0.0f64, 0.0f64);
-        for _ in 0..1500 {
-            bearing.0.step(step).unwrap();
-            let (energy, now) = energy_and_power(&mut bearing, &scene);
-            left += 0.5 * step * (power + now);
-            power = now;
-            drift = drift.max((energy + left - start).abs());
-            moved = moved.max(left.abs());
-        }
+        let [moved, drift] = exchanged_and_lost(&mut bearing, &scene, 1e-6, 1500);
         // Trapezoids of 1 µs over forces that swing in some 10 µs; the exchange is what makes the figure say something.
         assert!(moved > 1e-5 && drift < 2e-4 * moved, "{drift:e} J of {moved:e} J are lost");
     }

@@ -30,3 +30,5 @@ mod starts;
 mod stiffness;
 #[path = "../support/mod.rs"]
 mod support;
+mod unequal_elements;
+mod waviness;

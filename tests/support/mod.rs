@@ -2,6 +2,8 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)] // each test program uses a part of this
 
 pub mod defects;
+pub mod energy;
+pub mod loaded;
 #[path = "../../fmu-build/map_sources.rs"]
 mod map_sources;
 

@@ -17,6 +17,9 @@ const SENSOR_VECTOR: Quantity = quantity("sensor direction", "sensor.direction",
 const DEFECT_ELEMENT: Quantity =
     quantity("number of the element with the defect", "defect.element", 1.0, Inclusive(1.0), Inclusive(1000.0));
 
+const WAVINESS_ELEMENT: Quantity =
+    quantity("number of the wavy element", "waviness.element", 1.0, Inclusive(1.0), Inclusive(1000.0));
+
 /// The quantity of a key of the file, given with its table, with that key as it is known here.
 pub(crate) fn of_key(key: &str) -> Option<(&'static str, &'static Quantity)> {
     written().find(|(known, _)| *known == key)
@@ -33,10 +36,12 @@ pub(crate) fn written() -> impl Iterator<Item = (&'static str, &'static Quantity
 }
 
 /// Those of one key in one unit.
-static WRITTEN: [&Quantity; 79] = [
+static WRITTEN: [&Quantity; 85] = [
     &GRAVITY,
     &ELEMENT_COUNT,
     &ELEMENT_DIAMETER,
+    &DIAMETER_OFFSET,
+    &DIAMETER_RMS,
     &PITCH_DIAMETER,
     &CLEARANCE,
     &INTERNAL_CLEARANCE,
@@ -78,6 +83,10 @@ static WRITTEN: [&Quantity; 79] = [
     &DEFECT_ELEMENT,
     &SPALL_DEPTH,
     &EDGE_SLOPE,
+    &WAVINESS_ORDER,
+    &WAVINESS_AMPLITUDE,
+    &WAVINESS_ANGLE,
+    &WAVINESS_ELEMENT,
     &HOUSING_SPEED,
     &SPEED,
     &SENSOR_DIRECTION,

@@ -7,7 +7,7 @@ mod variables;
 use anyhow::Result;
 use brinell::scene::{
     Bearing, ContactEdge, Damping, Defect, DefectOn, DefectShape, DegreesOfFreedom, Film, Motion, Ring, RollerProfile,
-    Scene, Sensor,
+    Scene, Sensor, Waviness, WavyBody,
 };
 use brinell::simulation::Method;
 use minijinja::context;
@@ -71,6 +71,10 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     let defects = if defects.is_empty() { &healthy[..] } else { &defects };
     let in_space = bearing.degrees_of_freedom != DegreesOfFreedom::Two;
     let mut rows = elements(bearing);
+    let offsets = bearing.diameter_offsets.iter().map(|offset| digits(offset * 1e6)).collect::<Vec<_>>();
+    rows.extend(
+        (!offsets.is_empty()).then(|| ("Diameters beyond that, by element", format!("{} µm", offsets.join(", ")))),
+    );
     rows.extend([
         ("Radial clearance", format!("{} µm", digits(bearing.radial_clearance * 1e6))),
         ("Contact law near the defect", law),
@@ -78,6 +82,7 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     ]);
     rows.extend(scene.film.as_ref().map(|film| ("Oil", oil(film))));
     rows.extend(defects.iter().cloned());
+    rows.extend(scene.waviness.iter().map(waves_row));
     rows.extend([
         ("Shaft (inner ring)", ring(&scene.shaft, in_space)),
         ("Shaft speed at the start", format!("{} Hz", digits(scene.shaft_speed / std::f64::consts::TAU))),
@@ -157,6 +162,17 @@ fn defect_row(defect: &Defect) -> (&'static str, String) {
     );
     let what = if matches!(defect.shape, DefectShape::Profile(_)) { "profile" } else { "spall" };
     (on, format!("{element}{what} at {angle}, {shape}"))
+}
+
+/// Waves of one order around a body.
+fn waves_row(waves: &Waviness) -> (&'static str, String) {
+    let of = match waves.on {
+        WavyBody::Outer => "outer raceway".to_owned(),
+        WavyBody::Inner => "inner raceway, which turns with the shaft".to_owned(),
+        WavyBody::Element(element) => format!("element {}, angle from where it faces outwards", element + 1),
+    };
+    let (order, height) = (waves.order, digits(waves.amplitude * 1e6));
+    ("Waviness", format!("{of}: order {order}, {height} µm, a crest at {}", degrees(waves.crest)))
 }
 
 fn ring(ring: &Ring, in_space: bool) -> String {

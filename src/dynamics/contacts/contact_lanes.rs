@@ -177,8 +177,8 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed of its own and contacts may
-    /// have films.
+    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed and a size of its own and
+    /// contacts may have films.
     #[inline(always)]
     pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
         &self,
@@ -296,11 +296,15 @@ impl<E: Elastic> Smooth<'_, E> {
         let e_r = radial(simd, now.cage.direction, block, &of);
         let path_rate = w - dot(simd, now.housing.velocity, e_r);
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
-        let rho = Lanes::splat(simd, model.outer_centre_radius) + u;
-
         let number = |number: f64| Lanes::splat(simd, number);
+        let (mut radius, mut clearance) = (number(model.outer_centre_radius), number(self.clearance));
+        if UNEVEN_OR_OILED {
+            let larger = of(&block.larger);
+            (radius, clearance) = (radius - number(0.5) * larger, clearance - larger);
+        }
+        let rho = radius + u;
         let offset = [dot(simd, self.offset, e_r), dot(simd, -turned(self.offset), e_r)];
-        let gap = InnerGap::of(rho, u, offset, number(self.clearance), self.series);
+        let gap = InnerGap::of(rho, u, offset, clearance, self.series);
         let (delta, [n_r, n_t]) = (gap.approach, gap.n);
         let pace = number(now.cage.speed);
         let speed = if UNEVEN_OR_OILED { of(&block.pace) * pace } else { pace };

@@ -131,9 +131,10 @@ impl Model {
         let [inside, outside] = cells.map(|cells| Place { films, ..at.place(cells) });
         let (rho, offset, q_rate) = self.seen_from_inner(at);
         let place = InnerPlace { at: inside, rho, offset, q_rate };
-        let (inner, gap) = self.inner_contact(&self.inner.contact, &place, shortcuts);
+        let contacts = self.own_contacts(at.element);
+        let (inner, gap) = self.inner_contact(contacts[0], &place, shortcuts);
         let place = OuterPlace { at: outside, path_rate: at.path_rate, omega: at.omega };
-        let outer = self.outer_contact(&self.outer.contact, &place, shortcuts);
+        let outer = self.outer_contact(contacts[1], &place, shortcuts);
         let bearer = |cells: [u32; 2], frame| (cells != [SMOOTH; 2]).then_some(frame);
         ElementForces {
             at: *at,
@@ -146,7 +147,7 @@ impl Model {
         }
     }
 
-    /// Torque on the cage about the outer ring's centre (N m) of an element with this tangential direction, speed and
+    /// Torque on the cage about the outer ring's centre (N m) of element `j` with this tangential direction, speed and
     /// acceleration (rad/s, rad/s²), path and rate of it (m, m/s), that its contacts push `around` with a force (N)
     /// counter-clockwise; that about its own axis is left out.
     ///
@@ -154,22 +155,23 @@ impl Model {
     /// gravity do not supply, it does. `acceleration` is the outer ring's (m/s²).
     pub(in crate::dynamics) fn torque_on_cage<T: Scalar>(
         &self,
+        j: usize,
         e_t: Vector<T>,
         [omega, alpha]: [T; 2],
         [path, path_rate]: [T; 2],
         around: T,
         acceleration: Vector,
     ) -> T {
-        let rho = path + T::from(self.outer_centre_radius);
+        let rho = path + T::from(self.centre_radius(j));
         let inertia = acceleration.map(T::from).dot(&e_t) + (path_rate + path_rate) * omega + rho * alpha;
-        rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.element_mass))
+        rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.mass_of(j)))
     }
 
     /// Distance of an element from the outer ring's centre (m), and rings' offset (m) and rate of q (m/s) along and
     /// across e_r.
     pub(super) fn seen_from_inner<T: Scalar>(&self, at: &ElementMotion<T>) -> (T, [T; 2], [T; 2]) {
         let ElementMotion { e_r, e_t, offset, drift, .. } = at;
-        let rho = at.path + T::from(self.outer_centre_radius);
+        let rho = at.path + T::from(self.centre_radius(at.element));
         let q_rate = [drift.dot(e_r) + at.path_rate, drift.dot(e_t) + rho * at.omega];
         (rho, [offset.dot(e_r), offset.dot(e_t)], q_rate)
     }
@@ -183,7 +185,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> (OnElement<T>, InnerGap<T>) {
         let InnerPlace { at: Place { element, cells, u, angle, frames, films, curved }, rho, offset, q_rate } = place;
-        let clearance = self.clearance_between(films.as_ref());
+        let clearance = self.clearance_between(*element, films.as_ref());
         let gap = InnerGap::of(*rho, *u, *offset, clearance, false);
         let film = film_on(films.as_ref(), RacewaySide::Inner);
         if *cells == [SMOOTH; 2] {
@@ -214,7 +216,7 @@ impl Model {
             let (force, _) = normal_force(contact, film, *u, *path_rate);
             return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };
         }
-        let distance = *u + T::from(self.outer_centre_radius);
+        let distance = *u + T::from(self.centre_radius(*element));
         let (element, cells, curved) = (*element, *cells, *curved);
         let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
         let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames, shortcuts);

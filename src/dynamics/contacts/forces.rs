@@ -129,7 +129,7 @@ impl Forces {
         self.torques = [0.0; 3];
         self.searched.clear();
         self.elements.copy_from_slice(&model.elements);
-        if rigid && model.all_defects().all(Defects::is_empty) {
+        if rigid && model.all_defects().all(Defects::is_smooth) {
             return;
         }
         for j in 0..model.element_count {

@@ -157,7 +157,7 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> Linearized<T> {
-        self.linearized_with([&self.inner.contact, &self.outer.contact], cells, at, shortcuts)
+        self.linearized_with(self.own_contacts(at.element), cells, at, shortcuts)
     }
 
     /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
@@ -180,7 +180,7 @@ impl Model {
         } else {
             self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at, shortcuts)
         };
-        Linearized { at: *at, rho: at.path + T::from(self.outer_centre_radius), inner, outer, n, distance }
+        Linearized { at: *at, rho: at.path + T::from(self.centre_radius(at.element)), inner, outer, n, distance }
     }
 
     fn inner_to_first_order<T: Scalar, const K: usize>(

@@ -9,19 +9,26 @@ use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
 
 impl Model {
-    /// Where an element at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before the
-    /// outer ring's, with this `clearance` between the raceways.
+    /// Where element `j` at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before
+    /// the outer ring's, with this `clearance` of a nominal element between the raceways.
     #[inline]
-    pub(in crate::dynamics) fn inner_gap(&self, u: f64, offset: Vector, e_r: Vector, clearance: f64) -> InnerGap<f64> {
+    pub(in crate::dynamics) fn inner_gap(
+        &self,
+        j: usize,
+        u: f64,
+        offset: Vector,
+        e_r: Vector,
+        clearance: f64,
+    ) -> InnerGap<f64> {
         let offset = [offset.dot(&e_r), offset.dot(&turned(e_r))];
-        InnerGap::of(self.outer_centre_radius + u, u, offset, clearance, false)
+        InnerGap::of(self.centre_radius(j) + u, u, offset, clearance - self.larger(j), false)
     }
 
     /// What the direction φ of element `j`, which is `lead` ahead on the cage, at path `u` from the inner ring's centre
     /// is ahead of its angle θ about the outer ring's (rad).
     pub(crate) fn inner_lead(&self, j: usize, u: f64, now: &Kinematics, lead: &Lead) -> f64 {
         // The direction alone, of which the clearance is no part.
-        self.inner_gap(u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()
+        self.inner_gap(j, u, now.offset(), self.direction_with(j, &now.cage, lead), self.radial_clearance).lead()
     }
 
     /// The same of an element in a state at `tau`, in space too, where the inner ring's axis may be tilted.
@@ -49,7 +56,7 @@ impl Model {
     /// Element `j` at this `angle` (rad) and path `u` where it meets the outer raceway.
     #[inline(always)]
     pub(in crate::dynamics) fn outer_meeting(&self, angle: f64, j: usize, cells: [u32; 2], u: f64) -> Meeting {
-        Meeting { element: j, cells, u, direction: angle, distance: self.outer_centre_radius + u, curved: true }
+        Meeting { element: j, cells, u, direction: angle, distance: self.centre_radius(j) + u, curved: true }
     }
 
     /// Element `j` at this angle (rad) and with this gap where it meets the inner raceway.
@@ -75,8 +82,9 @@ impl Model {
     /// Cells of the contacts of element `j` with the inner and with the outer raceway: of the raceway, then its own.
     pub(in crate::dynamics) fn cells_of(&self, cells: &Cells, j: usize) -> [[u32; 2]; 2] {
         let own = self.defective.iter().position(|defective| defective.element == j);
-        let own = own.map_or([SMOOTH; 2], |k| cells.own[k]);
-        [[cells.inner[j], own[0]], [cells.outer[j], own[1]]]
+        let own = own
+            .map_or([SMOOTH; 2], |k| [0, 1].map(|side: usize| self.defective[k].defects[side].met(cells.own[k][side])));
+        [[self.inner.defects.met(cells.inner[j]), own[0]], [self.outer.defects.met(cells.outer[j]), own[1]]]
     }
 
     /// Cells of all contacts at `tau` for a state.

@@ -9,6 +9,7 @@ mod kernel;
 mod linearized;
 mod meetings;
 mod non_smooth_contacts;
+mod own_elements;
 mod shortcuts;
 
 pub use contact_lanes::Record;

@@ -29,26 +29,26 @@ impl Model {
         if RECORD {
             contacts.clear();
         }
-        let (law, film) = (&self.outer.contact, films.map(|films| &films.squeeze[RacewaySide::Outer as usize]));
+        let film = films.map(|films| &films.squeeze[RacewaySide::Outer as usize]);
         let on_housing = Vector::zeros();
-        let inverse_mass = self.inverse_element_mass;
-        let mut sum = OuterSum { law, inverse_mass, on_housing, elements, torques, contacts };
+        let mut sum = OuterSum { on_housing, elements, torques, contacts };
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
             let [angle, speed] = self.turning(j, now, sum.elements);
             let meeting = self.outer_meeting(angle, j, cells, u);
+            let [_, law] = self.own_contacts(j);
             // Each way to the end with its own numbers: what is one or another is written to memory and read late.
             if cells == [SMOOTH; 2] {
                 let near = Near::smooth(u);
                 let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(&at, &found, near.frame, meeting.distance);
+                sum.add::<RECORD>(&at, law, &found, near.frame, meeting.distance);
             } else {
                 *defect_lookups += 1;
                 let near = self.near(RacewaySide::Outer, &meeting, frames, shortcuts).unwrap_or_else(|cause| {
                     self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
                 });
                 let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(&at, &found, near.frame, meeting.distance);
+                sum.add::<RECORD>(&at, law, &found, near.frame, meeting.distance);
             }
         }
         sum.on_housing
@@ -93,7 +93,7 @@ impl Model {
         let (torques, lookups, unsolved) = (&mut forces.torques, &mut forces.defect_lookups, &mut forces.unsolved);
         let (frames, films, shortcuts) = (&forces.frames, forces.films.as_ref(), &mut forces.shortcuts);
         let clearance = self.clearance(films);
-        let (law, film) = (&self.inner.contact, films.map(|films| &films.squeeze[RacewaySide::Inner as usize]));
+        let film = films.map(|films| &films.squeeze[RacewaySide::Inner as usize]);
         if RECORD {
             contacts.clear();
         }
@@ -101,18 +101,19 @@ impl Model {
             let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
             let [angle, speed] = self.turning(j, now, elements);
             *lookups += 1;
-            let gap = self.inner_gap(u, now.offset(), e_r, clearance);
+            let gap = self.inner_gap(j, u, now.offset(), e_r, clearance);
+            let [law, _] = self.own_contacts(j);
             let at = self.inner_meeting(j, cells, &gap, angle);
             let near = self
                 .near(RacewaySide::Inner, &at, frames, shortcuts)
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
-            let around = (self.outer_centre_radius + u) * speed;
+            let around = (self.centre_radius(j) + u) * speed;
             let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
             let found = near.force(law, film, [gap.closing(q_rate), gap.turning(q_rate)], frames);
             let [f_r, f_t] = gap.turned(found.force);
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
             let of_outer = if non_smooth_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
-            *acceleration = of_outer + f_r * self.inverse_element_mass;
+            *acceleration = of_outer + f_r * self.per_mass_of(j);
             on_shaft -= e_r * f_r + turned(e_r) * f_t;
             if RECORD {
                 torques[near.frame as usize] -= found.force[1] * gap.distance;
@@ -152,8 +153,6 @@ impl NonSmoothContact {
 
 /// What outer contacts that are not those of the smooth rigid raceway add up to.
 struct OuterSum<'a> {
-    law: &'a CompliantContact,
-    inverse_mass: f64,
     on_housing: Vector,
     elements: &'a mut [ElementBlock],
     torques: &'a mut [f64; 3],
@@ -165,16 +164,18 @@ impl OuterSum<'_> {
     fn add<const RECORD: bool>(
         &mut self,
         &OnPath { element: j, e_r, .. }: &OnPath,
+        law: &CompliantContact,
         found: &ContactForce<f64>,
         frame: Frame,
         distance: f64,
     ) {
         let [f_r, f_t] = found.force;
-        self.elements[j / WIDEST].other[j % WIDEST] = -f_r * self.inverse_mass;
+        let (block, i) = (&mut self.elements[j / WIDEST], j % WIDEST);
+        block.other[i] = -f_r * block.per_mass[i];
         self.on_housing += e_r * f_r - turned(e_r) * f_t;
         if RECORD {
             self.torques[frame as usize] -= f_t * distance;
-            self.contacts.push(NonSmoothContact::new(j, self.law, found, [f_r, f_t]));
+            self.contacts.push(NonSmoothContact::new(j, law, found, [f_r, f_t]));
         }
     }
 }

@@ -258,7 +258,7 @@ impl Model {
     /// One element's block, and its part of the bodies'.
     fn add_element(&self, j: usize, element: &Linearized, shared: &Shared, jacobian: &mut Jacobian) {
         let (ElementMotion { e_r, e_t, omega, .. }, [by_q, by_q_rate]) = (element.at, element.by_q());
-        let per_mass = self.inverse_element_mass;
+        let per_mass = self.per_mass_of(j);
         let by_path = element.change(&ElementVariation::of_path());
         let by_rate = element.change(&ElementVariation::of_path_rate());
         // e_rᵀ G and e_rᵀ D: D is symmetric, G with damping is not.
@@ -308,8 +308,7 @@ impl Model {
             frames: shared.frames,
         });
         by_time[j] = path_rate;
-        by_time[self.layout.radial_velocity + j] = (with_time.radial() + omega * inner.force.y)
-            * self.inverse_element_mass
+        by_time[self.layout.radial_velocity + j] = (with_time.radial() + omega * inner.force.y) * self.per_mass_of(j)
             + omega * self.gravity.dot(&e_t)
             + alpha * (v.dot(&e_t) + 2.0 * rho * omega)
             + omega * (housing.velocity.dot(&e_t) - omega * v.dot(&e_r));

@@ -221,7 +221,7 @@ impl Model {
             let [inner, outer] = self.chained_on_ball(space, self.cells_of(cells, j), time, &ball, shortcuts);
             let [f_r, _, f_z] = plus(inner.force, outer.force);
             let gravity: Spatial<Changing> = [self.gravity.x, self.gravity.y, space.gravity].map(Changing::constant);
-            let rates = ball.accelerations([f_r, f_z], self.inverse_element_mass, gravity);
+            let rates = ball.accelerations([f_r, f_z], self.per_mass_of(j), gravity);
             let part = |of: &Changing, from: usize| std::array::from_fn(|i| of.by[from + i]);
             let on_rings = [ball.on_ring(&inner), ball.on_ring(&outer)];
             let block = &mut jacobian.balls[j];

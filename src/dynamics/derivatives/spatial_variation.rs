@@ -102,6 +102,7 @@ impl Model {
             let e_t = turned(Vector::from(at.e_r));
             let path = found.ball.rho - Changing::constant(self.outer_centre_radius);
             let torque = self.torque_on_cage(
+                j,
                 e_t,
                 [at.omega, alpha],
                 [path, found.ball.rates[0]],

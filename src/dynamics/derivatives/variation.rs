@@ -78,10 +78,9 @@ impl Model {
             change.radial_acceleration[j] = self.radial_acceleration(&forces, &now, by).by[0];
             let around = forces.inner.y + forces.outer.y;
             let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = forces.at;
-            let torque = self.torque_on_cage(e_t, [omega, alpha], [path, path_rate], around, acceleration);
+            let torque = self.torque_on_cage(j, e_t, [omega, alpha], [path, path_rate], around, acceleration);
             change.cage_torque += torque.by[0];
-            change.torque_by_acceleration -=
-                forces.at.e_t.map(|part| part.value * forces.rho.value * self.element_mass);
+            change.torque_by_acceleration -= forces.at.e_t.map(|part| part.value * forces.rho.value * self.mass_of(j));
             for BodyTorque { frame, torque } in forces.torques() {
                 match frame {
                     Frame::Shaft => change.shaft_torque += torque.by[0],
@@ -108,7 +107,7 @@ impl Model {
         let ElementMotion { e_r, e_t, omega, .. } = forces.at;
         let housing = changing_vector(now.housing.velocity, by.housing.velocity);
         let gravity = changing_vector(self.gravity, Vector::zeros());
-        let per_mass = changing(self.inverse_element_mass, 0.0);
+        let per_mass = changing(self.per_mass_of(forces.at.element), 0.0);
         let turning = omega * (housing.dot(&e_t) + forces.rho * omega);
         (forces.inner.x - forces.outer.x) * per_mass + gravity.dot(&e_r) + turning
     }

@@ -24,7 +24,7 @@ impl Model {
         if cell == SMOOTH {
             return 0.0;
         }
-        let distance = self.outer_centre_radius - self.radial_clearance;
+        let distance = self.centre_radius(j) - (self.radial_clearance - self.larger(j));
         let mut at = Meeting { element: j, cells: [cell, SMOOTH], u: 0.0, direction, distance, curved: true };
         let shortcuts = &mut Shortcuts::default();
         for _ in 0..20 {

@@ -149,7 +149,7 @@ impl Model {
         for (j, &u) in u.iter().enumerate() {
             let cells = self.cells_of(given.cells, j);
             let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(u), &now, shortcuts);
-            let gap = self.inner_gap(u - FURTHER, now.offset(), e_r, self.clearance(now.films.as_ref()));
+            let gap = self.inner_gap(j, u - FURTHER, now.offset(), e_r, self.clearance(now.films.as_ref()));
             let inner = self.inner_meeting(j, cells[0], &gap, angle);
             let outer = Meeting { u: u + FURTHER, ..self.outer_meeting(angle, j, cells[1], u) };
             for (side, at) in [(RacewaySide::Outer, outer), (RacewaySide::Inner, inner)] {

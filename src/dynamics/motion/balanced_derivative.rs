@@ -89,7 +89,7 @@ impl Model {
             outer: FirstOrder { approach: outside, .. },
             ..
         } = found.elastic;
-        let (inner, outer) = (found.inner.norm(), found.outer.norm());
+        let (inner, outer, laws) = (found.inner.norm(), found.outer.norm(), self.own_contacts(j));
         let direction = if inner > 0.0 { found.inner / inner } else { n.into() };
         for (list, value) in [
             (&mut record.inner, inner),
@@ -100,8 +100,8 @@ impl Model {
             (&mut record.outer_tangential, found.outer.y),
             (&mut record.inner_approach, inside),
             (&mut record.outer_approach, outside),
-            (&mut record.inner_pushing, self.inner.contact.pushing(inside, 0.0)),
-            (&mut record.outer_pushing, self.outer.contact.pushing(outside, 0.0)),
+            (&mut record.inner_pushing, laws[0].pushing(inside, 0.0)),
+            (&mut record.outer_pushing, laws[1].pushing(outside, 0.0)),
             (&mut record.path_rate, found.path_rate),
         ] {
             list[j] = value;

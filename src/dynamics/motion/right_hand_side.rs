@@ -81,7 +81,7 @@ impl Model {
                     cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i],
                 ];
                 let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
-                self.torque_on_cage(e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
+                self.torque_on_cage(j, e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
             })
             .sum();
         of_paths + forces.torque_on(Frame::Spin)

@@ -1,8 +1,8 @@
 //! The parameters of the equations of motion, worked out once from a scene.
 
-use super::element_block::{ElementBlock, blocks};
+use super::element_block::{ElementBlock, OwnElement, blocks};
 use super::excitation::{Excitation, Frame, WholeAngle};
-use super::film::{Films, FilmsNow, OilFilms};
+use super::film::{Films, FilmsNow};
 use super::irregularity::{Irregularity, Lead, LeadPieces};
 use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
@@ -13,11 +13,11 @@ use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::contact::near_defect::{LoveSolvers, NearDefect};
 use crate::geometry::kinematics::Ratios;
 use crate::numerics::lanes::WIDEST;
-use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned_by};
 use crate::numerics::sin_cos;
-use crate::scene::{Damping, ElementInertia, Ring, Scene};
-use std::f64::consts::TAU;
+use crate::scene::{Damping, ElementInertia, Ring, Scene, WavyBody};
+use crate::surface::Waves;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Parameters of the equations of motion. What an instant or a solution needs besides is with those who ask.
@@ -25,13 +25,11 @@ use std::sync::Arc;
 pub struct Model {
     /// Number of elements Z.
     pub element_count: usize,
-    /// Mass of one element (kg).
+    /// Mass of a nominal element (kg).
     pub element_mass: f64,
-    /// 1/mass of one element (1/kg).
-    pub(in crate::dynamics) inverse_element_mass: f64,
-    /// Radius of one element (m).
+    /// Radius of a nominal element (m).
     pub element_radius: f64,
-    /// R_o − r (m), the distance ρ of an element that touches the smooth outer raceway.
+    /// R_o − r (m), the distance ρ of a nominal element that touches the smooth outer raceway.
     pub outer_centre_radius: f64,
     /// Radial clearance G_r (m) without oil films, which take some of it ([`Self::clearance`]).
     pub radial_clearance: f64,
@@ -39,7 +37,7 @@ pub struct Model {
     pub inner: Raceway,
     /// The outer raceway.
     pub outer: Raceway,
-    /// Elements with defects.
+    /// Elements with defects or waves.
     pub defective: Vec<DefectiveElement>,
     /// Gravity on the elements (m/s²).
     pub gravity: Vector,
@@ -55,7 +53,7 @@ pub struct Model {
     pub ratios: Ratios,
     /// Layout of the state vector.
     pub layout: Layout,
-    /// Whether the scene has a defect that contacts with the inner raceway meet, be it computed yet or not.
+    /// Whether the scene has a defect or waves that contacts with the inner raceway meet, be they computed yet or not.
     pub may_have_inner_defects: bool,
     /// Angle of each element ahead of the cage (rad).
     offsets: Vec<f64>,
@@ -73,6 +71,8 @@ pub struct Model {
     pub has_frames: bool,
     /// What differs from element to element, eight at a time.
     pub(in crate::dynamics) elements: Arc<[ElementBlock]>,
+    /// Each element by itself; none of a bearing of equal ones.
+    pub(in crate::dynamics) own: Box<[OwnElement]>,
 }
 
 /// It is parameters and nothing else, so that one serves all that runs in a process.
@@ -95,7 +95,9 @@ impl Model {
         });
         let [inner_law, outer_law] = if in_balance { smooth_laws(bearing, Damping::HuntCrossley(0.0)) } else { damped };
         let stiffness = [inner_law.stiffness, outer_law.stiffness];
-        let raceway = |law, compliance, defects| Raceway { contact: CompliantContact { law, compliance }, defects };
+        let contact = |law, compliance| CompliantContact { law, compliance };
+        let (inside, outside) = (contact(inner_law, 0.0), contact(outer_law, bearing.outer_compliance));
+        let own = OwnElement::all(bearing, [&inside, &outside], dampers.as_deref());
         let element_radius = bearing.element_radius();
         let (turns, layout) = (scene.turns(), Layout::new(scene));
         let count = bearing.element_count;
@@ -106,16 +108,14 @@ impl Model {
         let irregularity = scene.cage.irregularity.as_ref();
         let irregularity =
             irregularity.and_then(|cage| Irregularity::new(cage, count, scene.cage.initial_angle)).map(Box::new);
-        let has_frames = turns && !(inner.is_empty() && outer.is_empty() && defective.is_empty());
-        Self {
+        let mut model = Self {
             element_count: bearing.element_count,
             element_mass: bearing.mass_of_element(),
-            inverse_element_mass: 1.0 / bearing.mass_of_element(),
             element_radius,
             outer_centre_radius: bearing.outer_raceway_radius() - element_radius,
             radial_clearance: bearing.radial_clearance,
-            inner: raceway(inner_law, 0.0, inner),
-            outer: raceway(outer_law, bearing.outer_compliance, outer),
+            inner: Raceway { contact: inside, defects: inner },
+            outer: Raceway { contact: outside, defects: outer },
             defective,
             gravity: scene.gravity.into(),
             shaft: scene.shaft,
@@ -124,14 +124,40 @@ impl Model {
             sensor_modes: SensorModes::new(scene, layout.sensors),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout,
-            may_have_inner_defects: scene.has_defect_inside(),
-            has_frames,
-            elements: blocks(&offsets, 1.0 / bearing.mass_of_element(), stiffness).into(),
+            may_have_inner_defects: scene.has_defect_inside() || scene.is_wavy_inside(),
+            has_frames: false,
+            elements: blocks(&offsets, bearing.mass_of_element(), stiffness, &own).into(),
+            own,
             offsets,
             irregularity,
             films: Films::of(scene).map(Box::new),
             dampers,
             space: Space::of(scene),
+        };
+        model.put_waves(scene);
+        model.has_frames = turns && !model.all_defects().all(Defects::is_smooth);
+        model
+    }
+
+    /// Puts the waves of the scene's bodies where contacts meet them.
+    fn put_waves(&mut self, scene: &Scene) {
+        self.inner.defects.set_waves(Waves::of(scene, WavyBody::Inner, 0.0));
+        self.outer.defects.set_waves(Waves::of(scene, WavyBody::Outer, 0.0));
+        let start = WholeAngle::in_first_turn(scene.cage.initial_angle);
+        for element in 0..self.element_count {
+            // At the start an element's angle 0 faces the outer raceway, and its other side the inner one.
+            let facing = self.element_angle(element, start);
+            let waves = [facing - PI, facing].map(|zero| Waves::of(scene, WavyBody::Element(element), zero));
+            if waves[0].is_none() {
+                continue;
+            }
+            let known = self.defective.iter().position(|own| own.element == element);
+            let at = known.unwrap_or(self.defective.len());
+            if known.is_none() {
+                let defects = [(); 2].map(|()| Defects::new(Frame::Spin, []));
+                self.defective.push(DefectiveElement { element, defects, mark: facing });
+            }
+            self.defective[at].defects.iter_mut().zip(waves).for_each(|(defects, waves)| defects.set_waves(waves));
         }
     }
 
@@ -190,10 +216,17 @@ impl Model {
         self.offsets[j]
     }
 
-    /// Whether elements are evenly spaced on a cage that turns evenly.
+    /// Whether elements are alike and evenly spaced on a cage that turns evenly.
     pub fn is_even(&self) -> bool {
         self.irregularity.is_none()
+            && !self.is_unequal()
             && self.offsets.iter().enumerate().all(|(j, &offset)| offset == j as f64 * TAU / self.element_count as f64)
+    }
+
+    /// Whether elements are unequal.
+    #[inline(always)]
+    pub fn is_unequal(&self) -> bool {
+        !self.own.is_empty()
     }
 
     /// Whether elements move against each other on the cage, or the cage's speed wanders.
@@ -201,10 +234,15 @@ impl Model {
         self.irregularity.is_some()
     }
 
-    /// Whether each element needs what the plain bearing of dry contacts in an even cage and in the plane does not.
+    /// Whether each element needs what the plain bearing of equal elements, dry contacts, in an even cage and in the
+    /// plane does not.
     #[inline(always)]
     pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
-        self.irregularity.is_some() || self.films.is_some() || self.dampers.is_some() || self.space.is_some()
+        self.irregularity.is_some()
+            || self.films.is_some()
+            || self.dampers.is_some()
+            || self.space.is_some()
+            || self.is_unequal()
     }
 
     /// Whether elements are in radial balance at every instant, without inertia.
@@ -219,16 +257,10 @@ impl Model {
         self.films.as_ref().map(|films| films.at(excitation.relative_speed.at(tau)))
     }
 
-    /// What separates a raceway from an element pressed to the other (m), films included.
+    /// What separates a raceway from a nominal element pressed to the other (m), films included.
     #[inline(always)]
     pub fn clearance(&self, films: Option<&FilmsNow>) -> f64 {
         films.map_or(self.radial_clearance, |films| self.radial_clearance - films.together())
-    }
-
-    /// As [`Self::clearance`], for films with derivatives.
-    pub(in crate::dynamics) fn clearance_between<T: Scalar>(&self, films: Option<&OilFilms<T>>) -> T {
-        let clearance = T::from(self.radial_clearance);
-        films.map_or(clearance, |films| clearance - films.together)
     }
 
     /// What element `j` is ahead of its position in a cage that turns evenly and is at this angle.

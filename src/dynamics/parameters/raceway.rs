@@ -12,10 +12,15 @@ use crate::contact::law::CompliantContact;
 use crate::contact::near_defect::{Approach, LoveSolvers, NearDefect};
 use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
+use crate::surface::Waves;
 use std::f64::consts::TAU;
 
 /// Cell of a contact on smooth surfaces, away from any defect.
 pub const SMOOTH: u32 = u32::MAX;
+
+/// What stands for [`SMOOTH`] where a contact is computed and the body has waves: no contact on it is that of round
+/// surfaces.
+const WAVY: u32 = u32::MAX - 1;
 
 /// A raceway.
 #[derive(Debug, Clone)]
@@ -26,7 +31,7 @@ pub struct Raceway {
     pub defects: Defects,
 }
 
-/// A rolling element with a defect, which meets both raceways in turn.
+/// A rolling element with a defect or waves, which meets both raceways in turn.
 #[derive(Debug, Clone)]
 pub struct DefectiveElement {
     /// Number of the element, from 0.
@@ -42,6 +47,8 @@ pub struct DefectiveElement {
 #[derive(Debug, Clone)]
 pub struct Defects {
     defects: Vec<SurfaceDefect>,
+    /// Waves around the body; `None` of a round one.
+    waves: Option<Box<Waves>>,
     /// What they turn with.
     pub frame: Frame,
 }
@@ -113,7 +120,7 @@ impl Cells {
 impl Defects {
     /// Defects of a body that turns with `frame`.
     pub fn new(frame: Frame, surfaces: impl IntoIterator<Item = Centred>) -> Self {
-        let mut defects = Self { defects: Vec::new(), frame };
+        let mut defects = Self { defects: Vec::new(), waves: None, frame };
         surfaces.into_iter().for_each(|one| defects.add(one));
         defects
     }
@@ -124,7 +131,22 @@ impl Defects {
         self.defects.push(SurfaceDefect { surface, centre, first });
     }
 
-    /// Whether there is none.
+    /// Gives the body waves.
+    pub(super) fn set_waves(&mut self, waves: Option<Waves>) {
+        self.waves = waves.map(Box::new);
+    }
+
+    /// Whether the body is round and without defects.
+    pub fn is_smooth(&self) -> bool {
+        self.is_empty() && self.waves.is_none()
+    }
+
+    /// A cell as contacts are computed with it.
+    pub(in crate::dynamics) fn met(&self, cell: u32) -> u32 {
+        if cell == SMOOTH && self.waves.is_some() { WAVY } else { cell }
+    }
+
+    /// Whether there is no defect.
     pub fn is_empty(&self) -> bool {
         self.defects.is_empty()
     }
@@ -172,8 +194,8 @@ impl Defects {
         defects.map(|defect| defect.within(cell, defect.angle(direction))).fold(f64::INFINITY, f64::min)
     }
 
-    /// Approach in `cell`, which is not the smooth one, at the smooth approach `u` (m), a `direction` (rad) in the
-    /// body's frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
+    /// Approach in `cell`, which is not the smooth one of a round body, at the smooth approach `u` (m), a `direction`
+    /// (rad) in the body's frame and a `distance` (m) of the element from the ring's centre; `curved`, `solvers`: see
     /// [`NearDefect::approach`].
     #[inline(always)]
     pub fn approach<T: Scalar>(
@@ -185,9 +207,50 @@ impl Defects {
         curved: bool,
         solvers: &mut LoveSolvers,
     ) -> Result<Approach<T>, ContactError> {
+        match &self.waves {
+            None => self.over_defect(cell, u, direction, distance, curved, solvers),
+            Some(waves) => self.over_waves(waves, cell, u, direction, distance, curved, solvers),
+        }
+    }
+
+    /// As [`Self::approach`], of a body without waves.
+    #[inline(always)]
+    fn over_defect<T: Scalar>(
+        &self,
+        cell: u32,
+        u: T,
+        direction: T,
+        distance: T,
+        curved: bool,
+        solvers: &mut LoveSolvers,
+    ) -> Result<Approach<T>, ContactError> {
         let Some(defect) = self.holding(cell) else { return Ok(Approach::smooth(u)) };
         let angle = direction.moved_to(defect.angle(direction.value()));
         defect.surface.approach((cell - defect.first) as usize, u, angle, distance, curved, solvers)
+    }
+
+    /// As [`Self::approach`], of a body with waves: these change the approach as a clearance does, near a defect too.
+    #[inline(never)]
+    #[allow(clippy::too_many_arguments)]
+    fn over_waves<T: Scalar>(
+        &self,
+        waves: &Waves,
+        cell: u32,
+        u: T,
+        direction: T,
+        distance: T,
+        curved: bool,
+        solvers: &mut LoveSolvers,
+    ) -> Result<Approach<T>, ContactError> {
+        let [height, slope] = waves.height(direction);
+        let u = u + height;
+        let found = match cell {
+            SMOOTH | WAVY => Approach::smooth(u),
+            _ => self.over_defect(cell, u, direction, distance, curved, solvers)?,
+        };
+        let along = found.by_path * slope;
+        let (by_angle, tangential) = (found.by_angle + along, found.tangential - along / distance);
+        Ok(Approach { by_angle, tangential, ..found })
     }
 
     /// The defect that a cell belongs to.

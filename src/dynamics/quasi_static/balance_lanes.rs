@@ -108,6 +108,9 @@ struct ElementLanes<S: Wide> {
     offset: [Lanes<S>; 2],
     drift: [Lanes<S>; 2],
     speed: Lanes<S>,
+    /// R_o − r and the clearance (m).
+    radius: Lanes<S>,
+    clearance: Lanes<S>,
     /// Weight and centrifugal force (N), and its rate (N/s).
     body: Lanes<S>,
     body_rate: Lanes<S>,
@@ -150,7 +153,8 @@ impl<'a, E: Elastic> Shared<'a, E> {
         // Constants of contacts are far above 1, or 0 for what is no smooth contact.
         let on = inner.at_most(one);
         let speed = of(&block.pace) * number(now.cage.speed);
-        let (mass, radius) = (number(model.element_mass), number(model.outer_centre_radius));
+        let (mass, larger) = (of(&block.mass), of(&block.larger));
+        let radius = number(model.outer_centre_radius) - number(0.5) * larger;
         let nominal = number(now.cage.speed);
         let alpha = of(&block.pace) * number(now.cage.acceleration) + of(&block.pace_by_angle) * (nominal * nominal);
         ElementLanes {
@@ -163,6 +167,8 @@ impl<'a, E: Elastic> Shared<'a, E> {
             offset: [dot(simd, self.offset, e_r), dot(simd, self.offset, e_t)],
             drift: [dot(simd, self.drift, e_r), dot(simd, self.drift, e_t)],
             speed,
+            radius,
+            clearance: number(model.radial_clearance) - larger,
             body: (dot(simd, model.gravity, e_r) + radius * (speed * speed)) * (mass * on),
             body_rate: (dot(simd, model.gravity, e_t) + number(2.0) * radius * alpha) * (speed * (mass * on)),
             along: dot(simd, now.housing.velocity, e_r),
@@ -172,9 +178,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
     /// The inner contact's gap at a path.
     #[inline(always)]
     fn gap<S: Wide>(&self, at: &ElementLanes<S>, u: Lanes<S>) -> InnerGap<Lanes<S>> {
-        let number = |number: f64| Lanes::splat(at.simd, number);
-        let (rho, clearance) = (number(self.model.outer_centre_radius) + u, number(self.model.radial_clearance));
-        let gap = InnerGap::of(rho, u, at.offset, clearance, self.series);
+        let gap = InnerGap::of(at.radius + u, u, at.offset, at.clearance, self.series);
         InnerGap { approach: gap.approach * at.on, ..gap }
     }
 
@@ -244,7 +248,7 @@ impl<S: Wide> Balanced<S> {
         let [k_i, k_o] = self.stiffness;
         let none = number(NO_STIFFNESS);
         let [drift, across] = at.drift;
-        let around = across + (number(shared.model.outer_centre_radius) + path) * at.speed;
+        let around = across + (at.radius + path) * at.speed;
         let opening = n_r * drift + n_t * around;
         let turning = n_t * (at.speed - (n_r * around - n_t * drift) / distance);
         let push = inner * turning - k_i * (n_r * opening) + at.body_rate;

@@ -113,8 +113,7 @@ impl Model {
         let elastic = still(path);
         let RadialForce { force, slope } = self.radial_balance(&elastic);
         let path_rate = self.balance_rate(&elastic);
-        let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
-        let contacts = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
+        let contacts = self.own_dampers(at.element).unwrap_or(self.own_contacts(at.element));
         let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), shortcuts);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
         let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());
@@ -164,7 +163,7 @@ impl Model {
 
     /// u' (m/s) of an element that stays in balance as cage, rings and frames move on.
     fn balance_rate<T: Scalar>(&self, elastic: &Linearized<T>) -> T {
-        let ElementMotion { e_t, omega, alpha, drift, frames, .. } = elastic.at;
+        let ElementMotion { element, e_t, omega, alpha, drift, frames, .. } = elastic.at;
         let moved = elastic.change(&ElementVariation {
             offset: drift,
             angle: omega,
@@ -172,8 +171,8 @@ impl Model {
             ..ElementVariation::default()
         });
         let gravity = self.gravity.map(T::from).dot(&e_t);
-        let body = omega * (gravity + alpha * T::Plain::from(2.0 * self.outer_centre_radius));
-        let push = moved.radial() + omega * elastic.inner.force.y + body * T::Plain::from(self.element_mass);
+        let body = omega * (gravity + alpha * T::Plain::from(2.0 * self.centre_radius(element)));
+        let push = moved.radial() + omega * elastic.inner.force.y + body * T::Plain::from(self.mass_of(element));
         let slope = self.radial_balance(elastic).slope;
         if slope.value() < 0.0 { -push / slope } else { T::from(0.0) }
     }
@@ -206,7 +205,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> Option<UnsolvedContact> {
         let ElementMotion { e_r, angle, .. } = self.element_motion(j, PathMotion::at_rest(path), now, shortcuts);
-        let gap = self.inner_gap(path, now.offset(), e_r, self.clearance(now.films.as_ref()));
+        let gap = self.inner_gap(j, path, now.offset(), e_r, self.clearance(now.films.as_ref()));
         let inner = self.inner_meeting(j, cells[0], &gap, angle);
         let outer = self.outer_meeting(angle, j, cells[1], path);
         // A search ends on the near side of where there is no answer.

@@ -68,8 +68,9 @@ impl Model {
 
     /// Radial force (N) on an element that counts as none where its path resolves its forces.
     pub(in crate::dynamics) fn no_force(&self, element: &Linearized) -> f64 {
-        let ([radius, _], omega) = (self.centrifugal_radius(element.rho), element.at.omega);
-        let body = self.element_mass * (self.gravity.norm() + radius * omega * omega);
+        let (j, omega) = (element.at.element, element.at.omega);
+        let [radius, _] = self.centrifugal_radius(j, element.rho);
+        let body = self.mass_of(j) * (self.gravity.norm() + radius * omega * omega);
         RESIDUAL * (body + element.inner.force.norm() + element.outer.force.x.abs())
     }
 

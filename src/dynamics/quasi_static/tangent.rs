@@ -37,23 +37,23 @@ impl Model {
     /// Radial force on an element, 0 in balance.
     #[inline]
     pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, element: &Linearized<T>) -> RadialForce<T> {
-        let (mass, square) = (T::Plain::from(self.element_mass), element.at.omega * element.at.omega);
-        let [radius, grows] = self.centrifugal_radius(element.rho);
+        let (j, square) = (element.at.element, element.at.omega * element.at.omega);
+        let (mass, [radius, grows]) = (T::Plain::from(self.mass_of(j)), self.centrifugal_radius(j, element.rho));
         let body = self.gravity.map(T::from).dot(&element.at.e_r) + radius * square;
         let contacts = element.inner.force.x - element.outer.force.x;
         let along = element.change(&ElementVariation::of_path()).radial();
         RadialForce { force: contacts + body * mass, slope: along + square * grows * mass }
     }
 
-    /// Radius (m) at which an element at distance `rho` (m) feels its centrifugal force, and its derivative by the
+    /// Radius (m) at which element `j` at distance `rho` (m) feels its centrifugal force, and its derivative by the
     /// path.
     ///
     /// In balance at every instant an element feels that on the smooth outer raceway, different by 1e-3 of itself, over
     /// a spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it
     /// about cancels its weight.
     #[inline(always)]
-    pub(in crate::dynamics) fn centrifugal_radius<T: Scalar>(&self, rho: T) -> [T; 2] {
-        if self.elements_in_balance() { [self.outer_centre_radius, 0.0].map(T::from) } else { [rho, T::from(1.0)] }
+    pub(in crate::dynamics) fn centrifugal_radius<T: Scalar>(&self, j: usize, rho: T) -> [T; 2] {
+        if self.elements_in_balance() { [self.centre_radius(j), 0.0].map(T::from) } else { [rho, T::from(1.0)] }
     }
 
     /// What a change does to an element that keeps its balance, and through it to the rings.
@@ -62,10 +62,11 @@ impl Model {
         element: &Linearized<T>,
         by: &ElementVariation<T>,
     ) -> Balanced<T> {
-        let (mass, omega) = (T::Plain::from(self.element_mass), element.at.omega);
+        let (j, omega) = (element.at.element, element.at.omega);
+        let mass = T::Plain::from(self.mass_of(j));
         let along = element.change(&ElementVariation::of_path());
         let direct = element.change(by);
-        let [radius, grows] = self.centrifugal_radius(element.rho);
+        let [radius, grows] = self.centrifugal_radius(j, element.rho);
         let stiffness = along.radial() + omega * omega * grows * mass;
         let push = direct.radial() + (radius + radius) * omega * by.speed * mass;
         let path = if stiffness.value() == 0.0 { T::from(0.0) } else { -push / stiffness };

@@ -64,8 +64,8 @@ impl Model {
             if !(f_r + f_t + f_z).is_finite() {
                 self.note_unsolved(cells, &at, &found, forces);
             }
-            derivative[w + j] += f_r * self.inverse_element_mass;
-            derivative[w_z + j] += f_z * self.inverse_element_mass;
+            derivative[w + j] += f_r * self.per_mass_of(j);
+            derivative[w_z + j] += f_z * self.per_mass_of(j);
             for (sum, force) in sums.iter_mut().zip(found.on_rings().as_flattened()) {
                 *sum += force;
             }

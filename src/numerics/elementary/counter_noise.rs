@@ -13,6 +13,22 @@ pub fn gaussian(seed: u64, course: u64, index: i64) -> f64 {
     (-2.0 * libm::log(radius)).sqrt() * sin_cos(TAU * angle).1
 }
 
+/// `count` numbers of a `course` that depend on `seed` alone, of this root mean square and of sum 0.
+pub fn centred_draw(count: usize, rms: f64, seed: u64, course: u64) -> Vec<f64> {
+    let drawn: Vec<f64> = (0..count).map(|j| gaussian(seed, course, j as i64)).collect();
+    let centred = centred(&drawn);
+    let present = (centred.iter().map(|x| x * x).sum::<f64>() / count as f64).sqrt();
+    // One alone has nothing to be uneven against.
+    let scale = if present > 0.0 { rms / present } else { 0.0 };
+    centred.iter().map(|x| scale * x).collect()
+}
+
+/// Numbers less their mean, so that their sum is 0.
+pub fn centred(numbers: &[f64]) -> Vec<f64> {
+    let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+    numbers.iter().map(|x| x - mean).collect()
+}
+
 /// A number that is uniform in [0, 1) and depends on nothing but `seed`, `course` and `index`.
 pub fn uniform(seed: u64, course: u64, index: i64) -> f64 {
     (mixed(bits(seed, course, index)) >> 11) as f64 / (1u64 << 53) as f64

@@ -6,7 +6,11 @@ mod rolling_element;
 pub use freedom::{DegreesOfFreedom, Gyroscopic};
 pub use rolling_element::{Crown, ElementInertia, Roller, RollerProfile, RollingElement};
 
+use crate::numerics::counter_noise::centred_draw;
 use serde::{Deserialize, Serialize};
+
+/// Course of the random numbers from which diameters are drawn; those of the cage count from 0.
+const DIAMETERS: u64 = u64::MAX;
 
 /// Dimensions and material of the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,6 +21,8 @@ pub struct Bearing {
     pub element_count: usize,
     /// Rolling element diameter D_w (m).
     pub element_diameter: f64,
+    /// Diameter of each element beyond that (m); none where elements are equal.
+    pub diameter_offsets: Vec<f64>,
     /// Pitch diameter D_pw (m).
     pub pitch_diameter: f64,
     /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5; infinite with rollers, whose raceways are
@@ -78,6 +84,27 @@ impl Bearing {
     /// Mass of one element (kg): the scene's, or a solid ball's or roller's.
     pub fn mass_of_element(&self) -> f64 {
         self.element_mass.unwrap_or_else(|| self.element.volume(self.element_diameter) * self.density)
+    }
+
+    /// This bearing with elements larger by so much (m), in raceways and grooves that stay what they are.
+    pub fn with_elements_larger(&self, by: f64) -> Self {
+        let (diameter, conformity) = (self.element_diameter + by, self.element_diameter / (self.element_diameter + by));
+        let heavier = self.element.volume(diameter) / self.element.volume(self.element_diameter);
+        Self {
+            element_diameter: diameter,
+            diameter_offsets: Vec::new(),
+            conformity_inner: self.conformity_inner * conformity,
+            conformity_outer: self.conformity_outer * conformity,
+            radial_clearance: self.radial_clearance - by,
+            element_mass: self.element_mass.map(|mass| mass * heavier),
+            ..self.clone()
+        }
+    }
+
+    /// Diameters beyond the nominal one (m) of `count` elements drawn with a seed, of this root mean square (m) and of
+    /// sum 0.
+    pub fn drawn_diameter_offsets(count: usize, rms: f64, seed: u64) -> Vec<f64> {
+        centred_draw(count, rms, seed, DIAMETERS)
     }
 
     /// The roller; `None` of a ball bearing.

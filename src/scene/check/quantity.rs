@@ -88,6 +88,20 @@ pub const ELEMENT_COUNT: Quantity =
     quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
 pub const ELEMENT_DIAMETER: Quantity =
     quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
+pub const DIAMETER_OFFSET: Quantity = quantity(
+    "diameter of an element beyond the nominal one",
+    "bearing.element_diameter_offsets_um",
+    1e6,
+    Inclusive(-2e3),
+    Inclusive(2e3),
+);
+pub const DIAMETER_RMS: Quantity = quantity(
+    "root mean square of the diameters about the nominal one",
+    "bearing.element_diameter_rms_um",
+    1e6,
+    Inclusive(0.0),
+    Inclusive(2e3),
+);
 pub const ROLLER_LENGTH: Quantity =
     quantity("effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3));
 pub const ROLLER_LAMINAE: Quantity =
@@ -197,6 +211,12 @@ pub const SPALL_LENGTH: Quantity =
     quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
 pub const SPALL_DEPTH: Quantity = quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
 pub const EDGE_SLOPE: Quantity = quantity("edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0));
+pub const WAVINESS_ORDER: Quantity =
+    quantity("number of waves around a body", "waviness.order", 1.0, Inclusive(1.0), Inclusive(1000.0));
+pub const WAVINESS_AMPLITUDE: Quantity =
+    quantity("amplitude of waviness", "waviness.amplitude_um", 1e6, Inclusive(0.0), Inclusive(1e3));
+pub const WAVINESS_ANGLE: Quantity =
+    quantity("angle of a crest of waviness", "waviness.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 /// Limits are those that a host finds in the model description: what a scene may say a host may set.
 pub const SHAFT: RingQuantities = RingQuantities {
     load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),

@@ -1,5 +1,6 @@
 //! What can be wrong with a bearing: dimensions that do not fit together, quantities of another kind of element.
 
+use super::SceneError;
 use crate::scene::messages::Limits;
 
 /// A bearing that cannot exist.
@@ -66,6 +67,29 @@ pub enum BearingError {
          as much"
     )]
     NoRoom { clearance_um: f64, limit_um: f64 },
+    /// Diameters that are not one for each element.
+    #[error("bearing.element_diameter_offsets_um has {found} values: it must have {count}, one for each element")]
+    DiameterCount { found: usize, count: usize },
+    /// An element far larger or smaller than the others.
+    #[error(
+        "diameter of element {element} beyond the nominal one (bearing.element_diameter_offsets_um, \
+         bearing.element_diameter_rms_um) is {offset_um}: it must be at most {limit_um} in size, a thousandth of \
+         bearing.element_diameter_mm"
+    )]
+    TooUnequal { element: usize, offset_um: f64, limit_um: f64 },
+    /// An element that does not fit where a nominal one does.
+    #[error(
+        "element {element}, {offset_um} um larger than bearing.element_diameter_mm \
+         (bearing.element_diameter_offsets_um, bearing.element_diameter_rms_um), does not fit: {of}"
+    )]
+    UnequalElement { element: usize, offset_um: f64, of: Box<SceneError> },
+    /// Elements of unequal size between grooves at a contact angle.
+    #[error(
+        "bearing.element_diameter_offsets_um or bearing.element_diameter_rms_um is given: it needs \
+         bearing.degrees_of_freedom 2, and there are {given}; unequal elements at a contact angle are not modelled, \
+         so far"
+    )]
+    UnequalInSpace { given: usize },
     /// A clearance from which the elements fall.
     #[error(
         "radial clearance (bearing.radial_clearance_um) is {clearance_um}: it must be at most {limit_um}, the radius \

@@ -4,10 +4,12 @@
 mod bearing;
 mod defect;
 mod freedom;
+mod waviness;
 
 pub use bearing::BearingError;
 pub use defect::DefectError;
 pub use freedom::FreedomError;
+pub use waviness::WavinessError;
 
 use super::messages::{Limits, Plain};
 
@@ -42,6 +44,9 @@ pub enum SceneError {
     /// A defect that cannot exist, or not in this bearing.
     #[error(transparent)]
     Defect(#[from] DefectError),
+    /// Waviness that cannot be, or not in this bearing.
+    #[error(transparent)]
+    Waviness(#[from] WavinessError),
     /// Something that needs other degrees of freedom, or that these need.
     #[error(transparent)]
     Freedom(#[from] FreedomError),

@@ -6,7 +6,7 @@
 //! enter.
 
 use super::quantity::{Input, Parameter, Quantity as Q, RingName};
-use crate::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Scene};
+use crate::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Scene, WavyBody};
 use crate::simulation::interface::table::{Causality, Dependencies, Variable};
 
 /// The dependencies of all outputs, in the order of the table.
@@ -14,7 +14,8 @@ pub(in crate::simulation) fn of(table: &[Variable], quantities: &[Q], scene: &Sc
     let rows = || table.iter().zip(quantities);
     let known = |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
     let knowns: Vec<_> = rows().filter(|(variable, _)| known(variable)).collect();
-    let defect = scene.defects.iter().any(|defect| defect.on != DefectOn::Inner);
+    let defect = scene.defects.iter().any(|defect| defect.on != DefectOn::Inner)
+        || scene.waviness.iter().any(|waves| waves.on != WavyBody::Inner);
     rows()
         .filter(|(variable, _)| variable.causality == Causality::Output)
         .map(|(variable, &output)| {

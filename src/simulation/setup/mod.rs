@@ -5,6 +5,7 @@ mod maps;
 mod model;
 mod parameters;
 mod tracks;
+mod waves;
 
 pub use arrangement::largest_force;
 pub use maps::{NeededMap, build_map, map_fingerprint, map_specification, needed_maps, stored_map};

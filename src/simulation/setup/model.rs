@@ -7,6 +7,7 @@ use super::arrangement::{PlacedSurface, arranged};
 use super::maps::{map_fingerprint, map_specification, prepared};
 use super::parameters::with_parameters;
 use super::tracks::{defect_radius, element_on_track, on_track, rolling_on_track, with_operating_angle};
+use super::waves::check_waves;
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
@@ -177,6 +178,7 @@ pub fn build_model(
     if scene.bearing.gyroscopic != Gyroscopic::None && scene.housing_speed.is_some() {
         return Err(SimulationError::CoupleOfTurningHousing);
     }
+    check_waves(scene)?;
     if surfaces.is_empty() {
         return Ok(Model::smooth(scene));
     }

@@ -220,7 +220,7 @@ impl Assembly {
             (0..elements).map(move |j| Freedom {
                 name: format!("element[{}].{name}", j + 1),
                 body: Body::Element(j),
-                mass: model.element_mass,
+                mass: model.mass_of(j),
                 position: position + j,
                 velocity: velocity + j,
             })
@@ -288,8 +288,8 @@ impl Assembly {
         model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut forces.shortcuts);
         let contacts = &forces.contacts;
         let largest = contacts.inner.iter().chain(&*contacts.outer).fold(0.0f64, |most, &force| most.max(force));
-        let weight = model.element_mass * model.gravity.norm();
         let carried = |j: usize| {
+            let weight = model.mass_of(j) * model.gravity.norm();
             let forces = [contacts.inner[j], contacts.outer[j]];
             let is_pressed = forces.iter().all(|&force| force > CARRIES * largest);
             forces.map(|force| force > CARRIES * largest && (is_pressed || force > RESTS * weight))

@@ -291,7 +291,7 @@ impl StaticBearing {
     /// The same bearing with another compliance in series with each outer contact (m/N).
     pub fn with_outer_compliance(&self, compliance: f64) -> Self {
         let mut other = self.clone();
-        other.model.outer.contact.compliance = compliance;
+        other.model.set_outer_compliance(compliance);
         other
     }
 

@@ -10,11 +10,12 @@ use brinell::scene::nearest;
 use toml::de::DeValue;
 
 /// Keys that a table cannot be without. The file itself is the table without a name.
-const NEEDED: [(&str, Keys); 8] = [
+const NEEDED: [(&str, Keys); 9] = [
     ("", &["name", "bearing", "shaft", "housing"]),
     ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
     ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
     ("defect", &["angle_deg"]),
+    ("waviness", &["order", "amplitude_um", "angle_deg"]),
     ("shaft", &["motion", "speed_hz"]),
     ("housing", &["motion"]),
     ("sensor.mode", &["frequency_hz", "damping_ratio", "gain"]),
@@ -151,7 +152,7 @@ mod tests {
 
     fn value_of(key: &str) -> &'static str {
         match key {
-            "element_count" => "9",
+            "element_count" | "order" => "9",
             "motion" => "\"internal\"",
             _ => "1.0",
         }
@@ -173,6 +174,7 @@ mod tests {
             "film" => of::<FilmTable>(text),
             "cage" => of::<CageTable>(text),
             "defect" => of::<DefectTable>(text),
+            "waviness" => of::<WavinessTable>(text),
             "shaft" => of::<ShaftTable>(text),
             "housing" => of::<HousingTable>(text),
             "sensor" => of::<SensorTable>(text),

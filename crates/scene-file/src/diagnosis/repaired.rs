@@ -19,18 +19,22 @@ enum StandIn {
 use StandIn::{Bearing, Value};
 
 /// Table, key, what stands for it, and keys that go without it.
-const STAND_INS: [(&str, &str, StandIn, &[&str]); 18] = [
+const STAND_INS: [(&str, &str, StandIn, &[&str]); 22] = [
     ("", "name", Value("'scene'"), &[]),
     ("", "bearing", Value("{}"), &[]),
     ("", "shaft", Value("{}"), &[]),
     ("", "housing", Value("{}"), &[]),
     ("bearing", "catalogue", Bearing, &[]),
+    ("bearing", "element_diameter_seed", Value("0"), &[]),
     ("film", "viscosity_pa_s", Value("0.04"), &[]),
     ("film", "pressure_viscosity_1_pa", Value("2e-8"), &[]),
     ("cage", "seed", Value("0"), &[]),
     ("defect", "angle_deg", Value("0.0"), &[]),
     ("defect", "length_mm", Value("1.0"), &["length_deg", "profile"]),
     ("defect", "depth_um", Value("1.0"), &["profile"]),
+    ("waviness", "order", Value("2"), &[]),
+    ("waviness", "amplitude_um", Value("0.0"), &[]),
+    ("waviness", "angle_deg", Value("0.0"), &[]),
     ("shaft", "motion", Value("'internal'"), &[]),
     ("shaft", "speed_hz", Value("0.0"), &[]),
     ("housing", "motion", Value("'internal'"), &[]),

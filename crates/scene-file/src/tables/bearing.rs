@@ -1,5 +1,6 @@
 //! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
 
+use super::diameters::Diameters;
 use super::faults::{Faults, TableFault};
 use crate::catalogue::{CatalogueBearing, NotInCatalogue, catalogued};
 use brinell::scene::quantity::ELEMENT_COUNT;
@@ -26,6 +27,7 @@ struct WholeBearing {
     roller_laminae: Option<u32>,
     element_count: usize,
     element_diameter_mm: f64,
+    diameters: Diameters,
     pitch_diameter_mm: f64,
     groove_diameter_mm: Option<f64>,
     conformity_inner: Option<f64>,
@@ -62,6 +64,12 @@ pub(crate) struct BearingTable {
     element_count: Option<usize>,
     /// Their diameter.
     element_diameter_mm: Option<f64>,
+    /// Diameter of each element beyond that. With 2 degrees of freedom only, as the next two.
+    element_diameter_offsets_um: Option<Vec<f64>>,
+    /// Root mean square of such differences that are drawn, of sum 0; instead of the list.
+    element_diameter_rms_um: Option<f64>,
+    /// Which elements of that kind; needed where they are drawn.
+    element_diameter_seed: Option<u64>,
     /// Diameter of the circle of their centres.
     pitch_diameter_mm: Option<f64>,
     /// Diameter of the groove's circle across the track, of both rings; instead of the conformities. Balls only.
@@ -176,6 +184,11 @@ impl TryFrom<BearingTable> for WholeBearing {
             roller_laminae: keys.roller_laminae,
             element_count: count.ok_or(missing("bearing.element_count"))?,
             element_diameter_mm: needed(diameter, "bearing.element_diameter_mm")?,
+            diameters: Diameters {
+                offsets_um: keys.element_diameter_offsets_um,
+                rms_um: keys.element_diameter_rms_um,
+                seed: keys.element_diameter_seed,
+            },
             pitch_diameter_mm: needed(pitch, "bearing.pitch_diameter_mm")?,
             groove_diameter_mm: keys.groove_diameter_mm,
             conformity_inner: keys.conformity_inner.or(conformity),
@@ -284,6 +297,7 @@ impl WholeBearing {
             element,
             element_count: self.element_count,
             element_diameter: self.element_diameter_mm / 1e3,
+            diameter_offsets: self.diameters.offsets(self.element_count)?,
             pitch_diameter: self.pitch_diameter_mm / 1e3,
             conformity_inner,
             conformity_outer,

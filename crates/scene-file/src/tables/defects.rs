@@ -31,10 +31,10 @@ pub(crate) struct DefectTable {
     profile: Option<String>,
 }
 
-/// The body that has a defect.
+/// The body that has a defect or waves.
 #[derive(JsonSchema, Deserialize, Default, Clone, Copy, PartialEq)]
 #[serde(rename_all = "kebab-case")]
-enum Body {
+pub(super) enum Body {
     #[default]
     Outer,
     Inner,

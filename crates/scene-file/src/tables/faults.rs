@@ -1,7 +1,9 @@
 //! Why tables are no scene: keys that contradict each other, and all that the check of a scene refuses.
 
 use crate::NotInCatalogue;
-use brinell::scene::{BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, nearest};
+use brinell::scene::{
+    BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, WavinessError, nearest,
+};
 use std::error::Error;
 
 /// One reason. Messages name keys with their tables, by which their lines are looked up.
@@ -46,7 +48,7 @@ pub(crate) enum TableFault {
         nearest(["log", "straight"], given).map_or(String::new(), |word| format!("; did you mean \"{word}\"?"))
     )]
     RollerProfile { given: String },
-    #[error("{key} is {value}: only a defect with defect.on = \"element\" has it")]
+    #[error("{key} is {value}: only a {0} with {0}.on = \"element\" has it", key.split('.').next().unwrap_or_default())]
     NotOnElement { key: &'static str, value: f64 },
     #[error("[[{table}]] number {number}: {of}")]
     InTable { table: &'static str, number: usize, of: Box<TableFault> },
@@ -95,6 +97,9 @@ fn is_of_dimensions(error: &SceneError) -> bool {
                 | BearingError::NoInnerRaceway { .. }
                 | BearingError::NoRoom { .. }
                 | BearingError::TooLoose { .. }
+                | BearingError::DiameterCount { .. }
+                | BearingError::TooUnequal { .. }
+                | BearingError::UnequalElement { .. }
         ),
         SceneError::Freedom(of) => matches!(
             of,
@@ -112,6 +117,10 @@ fn is_of_dimensions(error: &SceneError) -> bool {
                 | DefectError::NoSuchElement { .. }
                 | DefectError::PitNotMet { .. }
                 | DefectError::FlanksMeet { .. }
+        ),
+        SceneError::Waviness(of) => matches!(
+            of,
+            WavinessError::NoSuchElement { .. } | WavinessError::TooSteep { .. } | WavinessError::TooCurved { .. }
         ),
         _ => matches!(error, SceneError::SpacingCount { .. } | SceneError::OffPocket { .. }),
     }

@@ -10,6 +10,7 @@
 //! | `gravity_m_s2` | `[0, -9.81]`; a third number is along z |
 //! | `bearing.element` | `"ball"`; or `"cylindrical-roller"`, which needs `roller_length_mm` and has no groove |
 //! | `bearing.roller_profile`, `.roller_laminae` | `"log"`, the crown of ISO/TS 16281, or `"straight"`, or a file; 40 |
+//! | `bearing.element_diameter_offsets_um`, or `.element_diameter_rms_um`, `.element_diameter_seed` | equal elements |
 //! | `bearing.catalogue` | none: dimensions and material are needed; or a name, such as `"6205"` or `"NU205"` |
 //! | `bearing.radial_clearance_um` | 5: what separates a raceway from an element pressed to the other, R_o − R_i − 2r |
 //! | `bearing.internal_clearance_um` | instead: a catalogue's radial internal clearance (ISO 5753), twice as much |
@@ -33,6 +34,7 @@
 //! | `cage.irregularity` | none; `"recorded"` instead of the above: 0.6 % and 0.4 % of the spacing, wander 0.3 % |
 //! | `cage.seed` | needed where something is random |
 //! | `defect` | none; its `on` `"outer"`, `edge_slope_deg` 90; on an element `tilt_deg` 0; several as `[[defect]]` |
+//! | `waviness` | none; its `on` `"outer"`; several as `[[waviness]]` |
 //! | `shaft.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 3.2638, 1376.8, 0 |
 //! | `housing.mass_kg`, `.damping_n_s_m`, `.stiffness_n_m` (internal only) | 6.638, 2210.7, 1.51056e7 |
 //! | `shaft.load_n`, `housing.load_n` (internal only) | `[0, 0]`; a third number is along z |
@@ -60,11 +62,13 @@
 mod bearing;
 mod cage;
 mod defects;
+mod diameters;
 mod faults;
 mod film;
 mod one_or_more;
 mod rings;
 mod short_lists;
+mod waviness;
 
 pub(crate) use bearing::BearingTable;
 pub(crate) use cage::CageTable;
@@ -74,6 +78,8 @@ pub(crate) use film::FilmTable;
 #[cfg(test)]
 pub(crate) use rings::SensorModeTable;
 pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
+
+pub(crate) use waviness::WavinessTable;
 
 use brinell::scene::{
     Contact, ContactEdge, ContactLaw, Damping, DegreesOfFreedom, Experiment, Motion, Recorder, RecorderFilter,
@@ -110,6 +116,9 @@ pub(crate) struct SceneFile {
     /// A defect; several as `[[defect]]`; none for a healthy bearing.
     #[serde(default)]
     defect: OneOrMore<DefectTable>,
+    /// Waves of one order around a body; several as `[[waviness]]`; none for round ones.
+    #[serde(default)]
+    waviness: OneOrMore<WavinessTable>,
     /// The inner ring.
     shaft: ShaftTable,
     /// The outer ring.
@@ -152,11 +161,12 @@ impl SceneFile {
         };
         let inside = bearing.and_then(|bearing| {
             let defects = faults.take(self.defect.into_defects(&bearing));
+            let waviness = faults.take(self.waviness.into_waviness(bearing.element_count));
             let cage = faults.take(self.cage.into_cage(bearing.element_count));
-            Some((bearing, defects?, cage?))
+            Some((bearing, defects?, waviness?, cage?))
         });
         let (
-            Some((bearing, defects, cage)),
+            Some((bearing, defects, waviness, cage)),
             Some(contact),
             Some(shaft),
             Some(housing),
@@ -177,6 +187,7 @@ impl SceneFile {
             film: self.film.map(FilmTable::into_film),
             cage,
             defects,
+            waviness,
             shaft,
             shaft_speed: shaft_speed * TAU,
             shaft_initial_angle: shaft_angle.to_radians(),

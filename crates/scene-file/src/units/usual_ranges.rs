@@ -27,11 +27,16 @@ const DENSITIES: Range = [1e3, 25e3];
 const DIAMETERS: Range = [0.3, 300.0];
 const PITCHES: Range = [2.0, 5000.0];
 
-const USUAL: [Usual; 31] = [
+const USUAL: [Usual; 33] = [
     Usual {
         keys: &["bearing.element_diameter_mm"],
         range: Dimensions::diameters,
         source: "assumed: of miniature to large bearings, and room for no more than twenty elements between two",
+    },
+    Usual {
+        keys: &["bearing.element_diameter_offsets_um", "bearing.element_diameter_rms_um"],
+        range: |_| Some([1e-3, 20.0]),
+        source: "assumed: ISO 3290-1 allows 0.5 um in a lot of grade 10 and 1.4 um in one of grade 28",
     },
     Usual {
         keys: &["bearing.pitch_diameter_mm"],
@@ -118,6 +123,11 @@ const USUAL: [Usual; 31] = [
         keys: &["defect.depth_um"],
         range: |of| of.diameter.map(|d| [0.5, 100.0 * d]),
         source: "assumed: from roughness to a tenth of the element's diameter",
+    },
+    Usual {
+        keys: &["waviness.amplitude_um"],
+        range: |_| Some([1e-3, 100.0]),
+        source: "assumed: from ground raceways to rings that their seats press out of round",
     },
     Usual { keys: &["defect.edge_slope_deg"], range: |_| Some([2.0, 90.0]), source: "assumed" },
     Usual {

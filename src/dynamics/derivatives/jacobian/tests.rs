@@ -11,6 +11,7 @@ use crate::dynamics::parameters::{
 };
 use crate::scene::{
     CageIrregularity, Damping, DefectOn, ElementInertia, Film, Roller, RollerProfile, RollingElement, Scene, Sensor,
+    Waviness, WavyBody,
 };
 
 /// Who bears a defect, and for an element the raceway that it faces.
@@ -48,18 +49,7 @@ pub(crate) fn lively_with(
     scene.bearing.element = element.clone();
     scene.bearing.element_inertia = inertia;
     scene.contact.damping = damping;
-    if damping == Damping::HuntCrossley(5.0) {
-        let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
-        scene.cage.irregularity = Some(CageIrregularity { offsets, drawn: None, jitter: 0.02, wander: 0.01, seed: 5 });
-    }
-    // One sensor, or several that swing along other axes.
-    if let Damping::Proportional(_) = damping {
-        let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
-        scene.sensors = [(0.3, 0.7), (std::f64::consts::FRAC_PI_2, 1.0), (3.6, 0.2)].map(of).to_vec();
-    }
-    if damping == Damping::HuntCrossley(2.0) && inertia == ElementInertia::Full {
-        scene.film = Some(Film { viscosity: 0.1, pressure_viscosity: 2e-8, layer: Some(20e-6) });
-    }
+    make_uneven(&mut scene, bearer, damping);
     for (ring, motion) in [&mut scene.shaft, &mut scene.housing].into_iter().zip(motions) {
         ring.motion = motion;
     }
@@ -107,6 +97,35 @@ pub(crate) fn lively_with(
     (model, excitation)
 }
 
+/// What comes with each [damping](DAMPINGS).
+fn make_uneven(scene: &mut Scene, bearer: Bearer, damping: Damping) {
+    if damping == Damping::HuntCrossley(5.0) {
+        let offsets = (0..9).map(|j| 0.01 * (f64::from(j) - 4.0)).collect();
+        scene.cage.irregularity = Some(CageIrregularity { offsets, drawn: None, jitter: 0.02, wander: 0.01, seed: 5 });
+    }
+    if damping == Damping::HuntCrossley(0.0) {
+        scene.bearing.diameter_offsets = (0..9).map(|j| 1e-6 * (f64::from(j % 4) - 1.5)).collect();
+    }
+    if damping == Damping::Proportional(1e-5) {
+        scene.waviness = match bearer {
+            Bearer::Ring(_) => vec![
+                Waviness { on: WavyBody::Inner, order: 7, amplitude: 2e-6, crest: 0.3 },
+                Waviness { on: WavyBody::Outer, order: 11, amplitude: 1e-6, crest: -1.0 },
+                Waviness { on: WavyBody::Outer, order: 2, amplitude: 1e-6, crest: 2.0 },
+            ],
+            Bearer::Element(_) => vec![Waviness { on: WavyBody::Element(0), order: 3, amplitude: 2e-6, crest: 0.5 }],
+        };
+    }
+    // One sensor, or several that swing along other axes.
+    if let Damping::Proportional(_) = damping {
+        let of = |(direction, mass)| Sensor { direction, mass, ..Sensor::default() };
+        scene.sensors = [(0.3, 0.7), (std::f64::consts::FRAC_PI_2, 1.0), (3.6, 0.2)].map(of).to_vec();
+    }
+    if damping == Damping::HuntCrossley(2.0) && scene.bearing.element_inertia == ElementInertia::Full {
+        scene.film = Some(Film { viscosity: 0.1, pressure_viscosity: 2e-8, layer: Some(20e-6) });
+    }
+}
+
 /// Numbers between −1 and 1, always the same.
 pub(crate) fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
@@ -131,7 +150,7 @@ pub(crate) fn moving(model: &Model, excitation: &Excitation, seed: u64) -> (Vec<
     }
     for j in 0..z {
         let angle = model.element_angle(j, excitation.cage_angle_of(&excitation.cage_at(0.0)));
-        let outer = model.outer.defects.cell_at(angle);
+        let outer = model.outer.defects.met(model.outer.defects.cell_at(angle));
         let at = model.outer_meeting(angle, j, [outer, SMOOTH], 0.0);
         let frames = excitation.frames_at(0.0);
         let floor = -model.near_or_unsolved(RacewaySide::Outer, &at, &frames, &mut Shortcuts::default()).approach.value;
@@ -148,7 +167,8 @@ pub(crate) const MOTIONS: [[Motion; 2]; 4] = [
     [Motion::Host, Motion::Host],
 ];
 
-/// With each of them comes something else: a cage that is not even, several sensors, oil films.
+/// With each of them comes something else: elements of unequal size, a cage that is not even, waves and several
+/// sensors, oil films.
 pub(crate) const DAMPINGS: [Damping; 4] =
     [Damping::HuntCrossley(0.0), Damping::HuntCrossley(5.0), Damping::Proportional(1e-5), Damping::HuntCrossley(2.0)];
 

@@ -77,7 +77,7 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let at = model.element_motion(j, PathMotion::at_rest(0.0), &now, &mut Shortcuts::default());
             let found = model.in_balance(in_cells, 0.0, &at, &mut Shortcuts::default());
             let ElementMotion { e_r, omega, .. } = found.elastic.at;
-            let body = model.element_mass * (model.gravity.dot(&e_r) + model.outer_centre_radius * omega * omega);
+            let body = model.mass_of(j) * (model.gravity.dot(&e_r) + model.centre_radius(j) * omega * omega);
             let scale = found.inner.norm() + found.outer.norm() + body.abs();
             let left = found.inner.x - found.outer.x + body;
             // The search ends a thousandth below what it is asked for; rounding of 30 µm on the contact's stiffness.

@@ -2,7 +2,7 @@
 
 use super::builder::{Builder, CONTACT_LAWS, Limited, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
-use crate::scene::{Damping, DefectOn, DegreesOfFreedom, Motion};
+use crate::scene::{Damping, DefectOn, DegreesOfFreedom, Motion, WavyBody};
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
 
 /// Largest contact angles of a scene (rad).
@@ -144,7 +144,7 @@ impl Builder<'_> {
             let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
             self.parameter(name, what, quantity, unit, Limited { start, min: -1e3, max: 1e3, nominal: 1.0 });
         };
-        if scene.has_defect_of_inner_ring() {
+        if scene.marks_inner_ring() {
             let what = "Angle of the inner ring at the start, counter-clockwise";
             angle("shaft.initial_angle", what, RingName::Shaft, scene.shaft_initial_angle);
         }
@@ -152,7 +152,9 @@ impl Builder<'_> {
             let what = "Angle of the outer ring at the start, counter-clockwise";
             angle("housing.initial_angle", what, RingName::Housing, scene.housing_initial_angle);
         }
-        if scene.defects.iter().any(|defect| matches!(defect.on, DefectOn::Element { .. })) {
+        let spins = scene.defects.iter().any(|defect| matches!(defect.on, DefectOn::Element { .. }))
+            || scene.waviness.iter().any(|waves| matches!(waves.on, WavyBody::Element(_)));
+        if spins {
             self.parameter(
                 "element.spin_slip",
                 "Lag of the elements' spin behind pure rolling",

@@ -194,7 +194,7 @@ impl Builder<'_> {
 
     /// Angles of rings that bear a defect or turn, and the torque on one with a defect.
     fn turning_outputs(&mut self) {
-        if self.scene.has_defect_of_inner_ring() {
+        if self.scene.marks_inner_ring() {
             self.ring_angle(RingName::Shaft);
             self.output(
                 "shaft.torque",

@@ -1,6 +1,6 @@
 //! A defect: which body bears it, where, and its shape.
 
-use super::Bearing;
+use super::super::Bearing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 

@@ -1,0 +1,37 @@
+//! Elements of unequal size, as the table `[bearing]` has them.
+
+use super::faults::{Faults, TableFault};
+use brinell::scene::quantity::DIAMETER_RMS;
+use brinell::scene::{Bearing, BearingError, SceneError};
+
+const OFFSETS: &str = "bearing.element_diameter_offsets_um";
+const RMS: &str = "bearing.element_diameter_rms_um";
+
+/// The keys of unequal elements.
+pub(super) struct Diameters {
+    pub(super) offsets_um: Option<Vec<f64>>,
+    pub(super) rms_um: Option<f64>,
+    pub(super) seed: Option<u64>,
+}
+
+impl Diameters {
+    /// Diameter of each of `count` elements beyond the nominal one (m); none of equal elements.
+    pub(super) fn offsets(&self, count: usize) -> Result<Vec<f64>, Faults> {
+        let offsets = match (&self.offsets_um, self.rms_um) {
+            (Some(_), Some(_)) => return Err(TableFault::Both { first: OFFSETS, second: RMS }.into()),
+            (Some(given), None) if given.len() != count => {
+                return Err(SceneError::from(BearingError::DiameterCount { found: given.len(), count }).into());
+            }
+            (Some(given), None) => given.iter().map(|um| um / 1e6).collect(),
+            (None, Some(um)) => {
+                DIAMETER_RMS.check(um / 1e6)?;
+                let why = "diameters of elements are drawn";
+                let missing = TableFault::Missing { key: "bearing.element_diameter_seed", why };
+                let seed = self.seed.or((um == 0.0).then_some(0)).ok_or(missing)?;
+                Bearing::drawn_diameter_offsets(count, um / 1e6, seed)
+            }
+            (None, None) => Vec::new(),
+        };
+        Ok(if offsets.iter().all(|&offset| offset == 0.0) { Vec::new() } else { offsets })
+    }
+}

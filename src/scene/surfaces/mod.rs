@@ -1,0 +1,7 @@
+//! What raceways and elements are beyond their radius: defects and waves.
+
+mod defect;
+mod waviness;
+
+pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
+pub use waviness::{Waviness, WavyBody};
