@@ -326,8 +326,8 @@ fn energy() -> Row {
         let (now, of_shaft) = energy(&mut bearing);
         (drift, motion) = (drift.max((now - start).abs()), motion.max(of_shaft));
     }
-    let (share, limit) = (drift / motion, 1e-3);
-    // Some ten thousand steps at 1e-6 of the approach each, of which errors of one sign add up.
+    let (share, limit) = (drift / motion, 1e-6);
+    // Some ten thousand steps at 1e-6 of the approach each, of which errors of one sign might add up.
     assert!(share < limit, "{share}");
     let expected = format!("energy constant; the shaft's own goes up to {motion:.4e} J");
     Row::new(
