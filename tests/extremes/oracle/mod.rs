@@ -1,6 +1,8 @@
 //! Extremes without a closed form: against equations written separately and integrated by SciPy's DOP853 at 1e-12
 //! (`tests/oracle/extremes.py`), whose forces are kept in `oracle.csv`.
 
+pub mod in_space;
+
 use crate::row::Row;
 use crate::scenes::Kind;
 use crate::support::Named;
