@@ -145,6 +145,22 @@ fn a_recorder_with_another_rate_has_the_rows_of_one_that_was_described_with_it()
 }
 
 #[test]
+fn bytes_of_a_state_are_judged_by_the_rate_that_is_in_them() {
+    let started = |rate: f64| {
+        let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
+        let mut bearing = Simulation::new(Scene { recorder, ..shipped("6205-healthy") }, None).unwrap();
+        bearing.record_into("somewhere");
+        bearing.set("recorder.rate", rate).unwrap();
+        bearing.initialize(0.0).unwrap();
+        // The next sample of the slow one is due in more than two intervals of the fast one.
+        bearing.step(5.01e-3).unwrap();
+        bearing
+    };
+    let (slow, fast) = (started(12_800.0), started(51_200.0));
+    assert!(fast.state_from_bytes(&slow.save().to_bytes()).is_ok());
+}
+
+#[test]
 fn a_state_taken_at_another_rate_brings_its_rate_along() {
     let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::LinearPhase });
     let scene = Scene { recorder, ..shipped("6205-healthy") };

@@ -131,9 +131,13 @@ impl Recorder {
         )
     }
 
-    /// Time between two samples (s).
-    pub(in crate::simulation) fn interval(&self) -> f64 {
-        self.interval
+    /// Time between two samples (s) where so many rows per second are recorded (Hz).
+    pub(in crate::simulation) fn interval_at(&self, rate: f64) -> f64 {
+        if rate == self.rate { self.interval } else { interval(rate, self.decimation_at(rate).as_ref()) }
+    }
+
+    fn decimation_at(&self, rate: f64) -> Option<Decimation> {
+        self.decimation.as_ref().map(|_| decimation(self.fastest, rate))
     }
 
     /// Records so many rows per second (Hz) from now on; what was sampled at another rate is dropped.
@@ -142,7 +146,7 @@ impl Recorder {
             return;
         }
         self.rate = rate;
-        self.decimation = self.decimation.as_ref().map(|_| decimation(self.fastest, rate));
+        self.decimation = self.decimation_at(rate);
         self.interval = interval(rate, self.decimation.as_ref());
         self.forget(due);
     }

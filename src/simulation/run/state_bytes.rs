@@ -8,8 +8,10 @@ use super::life::Simulation;
 use super::state::{FirstInputs, History, State};
 use crate::dynamics::parameters::WholeAngle;
 use crate::numerics::bytes::Reader;
+use crate::simulation::interface::Parameter;
 use crate::simulation::interface::table::{Causality, Kind, Variable};
 use crate::simulation::recorder::Recorder;
+use crate::simulation::setup;
 use crate::simulation::step_error::SMALLEST_STEP;
 
 impl State {
@@ -198,9 +200,14 @@ impl Simulation {
         if !progress.choice.is_possible() {
             return Some("the choice of the integration method is not one that could have been made");
         }
-        // A sample that is overdue by ages would be made up for, period by period.
+        if !self.interface.table.iter().all(|variable| state.is_in_range(variable)) {
+            return Some("a parameter is beyond its limits");
+        }
+        // A sample that is overdue by ages would be made up for, period by period; the state has a rate of its own.
+        let rate = setup::parameter(&self.interface.quantities, &state.reals, Parameter::RecorderRate);
         let possible = |recorder: &Recorder| {
-            progress.due.delay.abs() <= 2.0 * recorder.interval() && progress.due.taken < MOST_SAMPLES
+            let interval = recorder.interval_at(rate.unwrap_or_default());
+            progress.due.delay.abs() <= 2.0 * interval && progress.due.taken < MOST_SAMPLES
         };
         if !self.run.recorder.as_ref().is_none_or(possible) {
             return Some("the next sample is due at no time at which one can be");
@@ -221,9 +228,6 @@ impl Simulation {
         }
         if (0..layout.len).any(|i| !layout.is_position(i) && progress.state[i].abs() > LARGEST_VELOCITY) {
             return Some("a velocity is one that no part can have");
-        }
-        if !self.interface.table.iter().all(|variable| state.is_in_range(variable)) {
-            return Some("a parameter is beyond its limits");
         }
         None
     }
