@@ -150,7 +150,10 @@ def check(path, folder, own):
     description = fmpy.read_model_description(path, validate=False)
     version = description.fmiVersion
     need(version == "2.0" or version.startswith("3.0"), f"fmiVersion is {version!r}: only 2.0 and 3.0 are tried here")
-    need(description.coSimulation is not None, "modelDescription.xml: no CoSimulation element with a modelIdentifier")
+    exchange = description.modelExchange is not None
+    lacks = "for Model Exchange alone; what is checked is co-simulation: build it with --kind both" if exchange else \
+        "no CoSimulation element with a modelIdentifier"
+    need(description.coSimulation is not None, f"modelDescription.xml: {lacks}")
     real = "Real" if version == "2.0" else "Float64"
     count = {c: sum((v.type, v.causality) == (real, c) for v in description.modelVariables) for c in ("output", "input")}
     what = description.coSimulation

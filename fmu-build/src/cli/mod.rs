@@ -151,7 +151,10 @@ impl Command {
             }
             Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
             Command::Completions { shell } => {
-                clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut std::io::stdout());
+                // `generate` panics where its reader has gone; a text is printed as all others are.
+                let mut text = Vec::new();
+                clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut text);
+                print!("{}", String::from_utf8(text)?);
                 Ok(())
             }
             Command::Schema => {

@@ -57,6 +57,12 @@ impl Simulation {
         Ok(())
     }
 
+    /// Mean force (N) of the bearing on its inner ring over the last step, or the force of the start.
+    pub fn mean_load(&self) -> f64 {
+        let [x, y, ..] = self.run.state.progress.mean_force;
+        Vector::new(x, y).norm()
+    }
+
     /// The step (s) that a host which moves a ring should take, `solver.suggested_step`; `None` where it moves none.
     pub fn suggested_step(&mut self) -> Result<Option<f64>, SimulationError> {
         if !self.interface.quantities.contains(&Quantity::SuggestedStep) {

@@ -16,6 +16,8 @@ use brinell::simulation::{Simulation, VariableError};
 
 /// Suggested steps from which on one is warned of: errors beyond some 10 % with whatever wiring.
 const TOO_LONG: f64 = 3.0;
+/// Growth of the force from which on the step is looked at again: frequencies grow with its sixth root, by 1.4.
+const HEAVIER: f64 = 8.0;
 
 /// One instance of the FMU.
 #[derive(Debug)]
@@ -46,8 +48,8 @@ pub(crate) struct Instance {
     pub(crate) rows: Vec<ValueReference>,
     /// The file that the recorder's samples go to.
     recording: Option<Recording>,
-    /// Longest step that has been looked at (s).
-    longest: f64,
+    /// Longest step that has been looked at (s), and the largest force under which it was (N).
+    looked_at: [f64; 2],
     /// Whether it has warned of contacts that a shoulder cuts.
     warned_of_shoulders: bool,
     /// Strings handed out last, which stay valid until strings are read again.
@@ -71,7 +73,7 @@ impl Instance {
             updates: None,
             rows: Vec::new(),
             recording: None,
-            longest: 0.0,
+            looked_at: [0.0; 2],
             warned_of_shoulders: false,
             texts: Vec::new(),
         }
@@ -85,7 +87,7 @@ impl Instance {
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
-        self.longest = 0.0;
+        self.looked_at = [0.0; 2];
         self.last_step = Status::Ok;
         Ok(unstored)
     }
@@ -126,16 +128,18 @@ impl Instance {
         let after = self.clock.as_ref().ok_or(Failure::NotSetUp)?.after(point, step)?;
         #[cfg(feature = "panic-on-demand")]
         self.logger.panic_on_demand();
-        if step > 1.1 * self.longest {
+        let ([longest, heaviest], load) = (self.looked_at, self.simulation.mean_load());
+        if step > 1.1 * longest || load > HEAVIER * heaviest {
+            self.looked_at = [longest.max(step), heaviest.max(load)];
             self.look_at_length(step)?;
         }
         Ok(after)
     }
 
-    /// Warns of a step that is too long for the casing; looks at each length once, and at none that is hardly longer.
+    /// Warns of a step that is too long for the casing; looks at each length once, at none that is hardly longer, and
+    /// again where the force has grown.
     #[cold]
     fn look_at_length(&mut self, step: f64) -> Result<(), Failure> {
-        self.longest = step;
         let Some(suggested) = self.simulation.suggested_step()? else { return Ok(()) };
         if step > TOO_LONG * suggested {
             self.logger.line(Status::Warning, || {
