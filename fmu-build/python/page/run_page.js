@@ -233,14 +233,24 @@ function envelope(signal, low, high) {
   return { step: line / 4, y: y.subarray(0, 2 * n).map((v, k) => (2 * Math.hypot(v, zero[k])) / count) };
 }
 
+const EVERY_SAMPLE = "Needs every sample; this run was too long for the page to hold them: a smaller --stop.";
+
 // Another band for the spectrum of the envelope, where the page has every sample.
 function offerBand(graph, spectrum) {
   const by = (name) => document.getElementById(`band-${name}`);
   const signal = DATA.motion && DATA.motion.signal;
   [by("low").value, by("high").value] = spectrum.band.map((f) => digits(1e-3 * f));
   by("take").disabled = !signal || DATA.thinned;
+  if (by("take").disabled) by("said").textContent = EVERY_SAMPLE;
   by("take").addEventListener("click", () => {
-    const { step, y } = envelope(signal, 1e3 * by("low").value, 1e3 * by("high").value);
+    const [low, high] = ["low", "high"].map((name) => Number(by(name).value));
+    const possible = low >= 0 && high > low;
+    by("said").textContent = possible ? "" : "The first must be below the second.";
+    if (!possible) return;
+    const heading = graph.previousElementSibling.previousElementSibling;
+    const said = `${digits(low)} to ${digits(high)} kHz`;
+    heading.textContent = heading.textContent.replace(/[\d.]+ to [\d.]+ kHz/, said);
+    const { step, y } = envelope(signal, 1e3 * low, 1e3 * high);
     const shown = Math.min(y.length, Math.ceil(spectrum.shown / step));
     const x = Array.from({ length: shown }, (_, i) => i * step), last = spectrum.marks.length;
     // Beyond what the window makes of 0 Hz.

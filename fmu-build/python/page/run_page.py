@@ -265,7 +265,8 @@ Zoomed out, a line goes through the least and the greatest value of each pixel.<
 """
 
 BAND = """<p>Band <input id="band-low" type="number" min="0" step="0.1" aria-label="from"> to
-<input id="band-high" type="number" min="0" step="0.1" aria-label="to"> kHz <button id="band-take">Take it</button></p>
+<input id="band-high" type="number" min="0" step="0.1" aria-label="to"> kHz <button id="band-take">Take it</button>
+<span id="band-said"></span></p>
 """
 MOVING = """<h2>The bearing</h2>
 <p>Vermilion: forces of the elements on both rings. A click on a signal below goes to its time.</p>

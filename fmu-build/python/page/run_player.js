@@ -45,6 +45,7 @@ function startMotion() {
     show();
   });
   by("sound").disabled = !m.signal || DATA.thinned;
+  if (by("sound").disabled) by("sound").title = "needs every sample: a shorter run";
   by("sound").addEventListener("click", () => playSound(m.signal));
   document.getElementById("signals").on("plotly_click", (event) => {
     time = Math.max(m.start, Math.min(end, event.points[0].x));
