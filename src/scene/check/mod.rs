@@ -34,7 +34,7 @@ use std::f64::consts::{PI, TAU};
 const SMALLEST_RELATIVE_CLEARANCE: f64 = -0.0075;
 
 /// Largest difference of an element's diameter from the nominal one, as a share of that: 8 µm of a 6205's ball, where
-/// grade 28 of ISO 3290-1 allows 1.4 µm in a lot. Near a defect contacts are those of a nominal element, whose curvature
+/// grade 28 of ISO 3290-1 allows 1.4 µm a lot. Near a defect contacts are those of a nominal element, whose curvature
 /// is off by as much.
 const MOST_UNEQUAL: f64 = 1e-3;
 
