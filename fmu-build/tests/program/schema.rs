@@ -112,6 +112,12 @@ element = 1
 angle_deg = 0.0
 length_mm = 1.0
 depth_um = 50.0
+[[waviness]]
+on = "element"
+element = 1
+order = 2
+amplitude_um = 0.1
+angle_deg = 0.0
 [shaft]
 motion = "internal"
 speed_hz = 10.0
@@ -139,6 +145,7 @@ fn bounds(schema: &serde_json::Value) -> Vec<(String, String, f64, bool, bool)> 
         ("film", "FilmTable"),
         ("cage", "CageTable"),
         ("defect", "DefectTable"),
+        ("waviness", "WavinessTable"),
         ("shaft", "ShaftTable"),
         ("housing", "HousingTable"),
         ("sensor", "SensorTable"),
