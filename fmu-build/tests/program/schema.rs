@@ -231,7 +231,7 @@ fn every_number_of_a_scene_has_bounds_in_the_schema() {
             let number = property.get("items").unwrap_or(property);
             let kinds = number["type"].to_string();
             // Which of all random courses it is has no limit but that of its type; of a few all are listed.
-            let listed = (key == "seed" || key.ends_with("_seed")) || property.get("enum").is_some();
+            let listed = key == "seed" || key.ends_with("_seed") || property.get("enum").is_some();
             if (kinds.contains("number") || kinds.contains("integer")) && !listed {
                 let count = bounded.iter().filter(|(path, ..)| path.ends_with(&format!(".{key}"))).count();
                 assert!(count >= 2, "{name}.{key} has {count} bounds");

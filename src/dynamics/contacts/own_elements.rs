@@ -43,10 +43,10 @@ impl Model {
         self.own.get(j).map_or_else(nominal, |own| own.contacts.each_ref())
     }
 
-    /// The same with their damping, of elements in balance; without inertia of none.
-    pub(in crate::dynamics) fn own_dampers(&self, j: usize) -> Option<[&CompliantContact; 2]> {
-        let nominal = || self.dampers.as_deref().map(|dampers| dampers.each_ref());
-        self.own.get(j).map_or_else(nominal, |own| own.dampers.as_ref().map(|dampers| dampers.each_ref()))
+    /// The same with the damping that contacts of an element in balance are computed without.
+    pub(in crate::dynamics) fn own_dampers(&self, j: usize) -> [&CompliantContact; 2] {
+        let dampers = self.own.get(j).map_or(self.dampers.as_deref(), |own| own.dampers.as_ref());
+        dampers.map_or_else(|| self.own_contacts(j), |dampers| dampers.each_ref())
     }
 
     /// Sets the compliance (m/N) in series with each outer contact.

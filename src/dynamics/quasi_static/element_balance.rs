@@ -113,7 +113,7 @@ impl Model {
         let elastic = still(path);
         let RadialForce { force, slope } = self.radial_balance(&elastic);
         let path_rate = self.balance_rate(&elastic);
-        let contacts = self.own_dampers(at.element).unwrap_or(self.own_contacts(at.element));
+        let contacts = self.own_dampers(at.element);
         let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), shortcuts);
         let ElementChange { inner, outer } = damping(&elastic, &damped);
         let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());

@@ -140,8 +140,7 @@ impl Model {
         let matrix = residual.map(|of| [of.by[0], of.by[1]]);
         let rates = solved(matrix, residual.map(|of| of.by[2])).map(|rate| -rate);
         let ball = at.ball_moving(self, place, rates);
-        let dampers = self.dampers.as_deref().map(|[inner, outer]| [inner, outer]);
-        let laws = dampers.unwrap_or([&self.inner.contact, &self.outer.contact]);
+        let laws = self.own_dampers(at.element);
         let mut damped = self.ball_forces_with(laws, space, cells, at, &ball, shortcuts);
         self.add_couple(space, at.omega, &mut damped);
         let plain = |of: Spatial<Moving<T>>| of.map(|part| part.value);

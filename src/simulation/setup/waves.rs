@@ -13,6 +13,9 @@ const LENGTHS: f64 = 5.0;
 
 /// Refuses waves that a contact would average out.
 pub(super) fn check_waves(scene: &Scene) -> Result<(), SimulationError> {
+    if scene.waviness.is_empty() {
+        return Ok(());
+    }
     let force = largest_force(scene);
     let along = |side| {
         let approach = largest_approach(&scene.bearing, side, force);
