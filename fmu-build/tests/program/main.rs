@@ -1,6 +1,7 @@
 //! The program `brinell` as its users run it: commands, options, what it writes and what it says.
 
 mod answers;
+mod commands;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;
@@ -18,5 +19,4 @@ mod schema;
 mod size;
 mod stiffness;
 mod sweep;
-mod typed;
 mod whole_files;

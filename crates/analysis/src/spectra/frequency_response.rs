@@ -376,6 +376,3 @@ fn gains(lines: &[Line], poles: &[[f64; 2]], with_constant: bool) -> Option<(Vec
         });
     Some((modes.collect(), if with_constant { *found.last()? } else { 0.0 }))
 }
-
-#[cfg(test)]
-mod tests;

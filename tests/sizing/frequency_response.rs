@@ -1,7 +1,10 @@
 //! Modes out of responses that are known, noisy, or none.
 #![allow(clippy::unwrap_used)]
 
-use crate::spectra::frequency_response::*;
+use brinell::scene::SensorMode;
+use brinell_analysis::spectra::{FrequencyResponse, ResponseError, response};
+use brinell_eigen::c64;
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 fn modes() -> Vec<SensorMode> {
