@@ -44,6 +44,7 @@ impl Scene {
                 largest_force: None,
                 cells: None,
                 map_accuracy: None,
+                flank_map: false,
                 edge: ContactEdge::HalfSpace,
             },
             film: None,

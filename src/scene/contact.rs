@@ -19,6 +19,8 @@ pub struct Contact {
     pub cells: Option<[u32; 2]>,
     /// Largest error of the contact map, relative to the largest force; `None` for the usual one.
     pub map_accuracy: Option<f64>,
+    /// Whether the contact map is that of a spall's flanks on a short floor, which serves spalls of any length above.
+    pub flank_map: bool,
     /// What laws `map` and `love` take a sharp edge to be.
     pub edge: ContactEdge,
 }

@@ -17,7 +17,7 @@ use crate::numerics::checksum::checksum;
 
 const MARK: &[u8; 8] = b"BRNL-MDL";
 /// Changes with every field of a [`Scene`] and of what it consists of.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A model file that does not give a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn a_layout_belongs_to_its_version() {
         let sums = everything().map(|scene| checksum(&encode(&scene, TEXT).unwrap()));
-        assert_eq!((VERSION, sums), (4, [1_392_191_574_227_361_470, 7_120_427_618_141_507_461]));
+        assert_eq!((VERSION, sums), (5, [8_964_155_534_092_747_642, 10_940_988_503_852_610_955]));
     }
 
     #[test]

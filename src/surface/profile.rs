@@ -5,6 +5,12 @@
 
 use super::{Interval, SurfaceError};
 
+/// An arc (m) as a multiple of a picometre's nearest power of two: what differs in its last bits gives the same.
+pub(crate) fn rounded(arc: f64) -> f64 {
+    const FINEST: f64 = 1.099511627776e12;
+    (arc * FINEST).round() / FINEST
+}
+
 /// Depth h (m) over the arc s (m).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
@@ -70,6 +76,13 @@ impl Profile {
             }
         }
         Ok(Self::closed(points))
+    }
+
+    /// The same with its floor, which is level between these two of its arcs (m), from −`half` to `half` (m): arcs from
+    /// the floor's ends are rounded, so that floors of any length between the same flanks give equal bits.
+    pub(crate) fn with_floor(&self, [start, end]: [f64; 2], half: f64) -> Self {
+        let moved = |arc: f64| if arc <= start { rounded(arc - start) - half } else { rounded(arc - end) + half };
+        Self { points: self.points.iter().map(|&(arc, depth)| (moved(arc), depth)).collect(), ..*self }
     }
 
     /// Several profiles as one, each with the arc (m) at which its own arcs begin; they ascend and do not touch.

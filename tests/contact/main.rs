@@ -7,6 +7,7 @@ mod counting;
 mod edge;
 #[path = "../support/er16k.rs"]
 mod er16k;
+mod flanks;
 mod grid;
 mod inner;
 mod laws;

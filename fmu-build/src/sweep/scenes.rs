@@ -98,6 +98,8 @@ impl Base {
             if let Value::Table(contact) = contact {
                 contact.insert("largest_force_n".to_owned(), Value::Float(force));
                 contact.insert("map_accuracy".to_owned(), Value::Float(accuracy));
+                scene.contact.flank_map =
+                    *contact.entry("flank_map").or_insert(Value::Boolean(true)) == Value::Boolean(true);
             }
         }
         Ok((scene, table))

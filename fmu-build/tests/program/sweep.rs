@@ -334,11 +334,12 @@ fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
 }
 
 #[test]
-fn runs_of_other_loads_and_clearances_share_one_contact_map_whatever_the_number_of_threads() {
+fn runs_of_other_loads_clearances_and_lengths_share_one_contact_map_whatever_the_number_of_threads() {
     let folder = common::folder("sweep-maps");
     let text = "scene = \"er16k-tb1\"\nruns = 12\nstop_s = 0.01\nsettle_s = 0.002\nrate_hz = 25600\n\
-        [set]\ncontact.cells = [24, 12]\ncontact.map_accuracy = 0.02\ndefect.length_mm = 2\n\
-        [grid]\nbearing.radial_clearance_um = [3, 5, 6.5, 7]\n[random]\nshaft.load_n = [100, 450]\n";
+        [set]\ncontact.cells = [24, 12]\ncontact.map_accuracy = 0.02\n\
+        [grid]\nbearing.radial_clearance_um = [3, 5, 6.5, 7]\n[random]\nshaft.load_n = [100, 450]\n\
+        defect.length_mm = [4, 6]\n";
     let path = file(&folder, text);
     let maps_of = |jobs: &str| -> Vec<(String, Vec<u8>)> {
         let (out, cache) = (folder.join(format!("out-{jobs}")), folder.join(format!("cache-{jobs}")));

@@ -4,6 +4,7 @@ mod build;
 mod cells;
 mod checks;
 mod contact_maps;
+mod flanks;
 mod format;
 pub mod lookup;
 mod patch_plan;
@@ -12,6 +13,7 @@ mod second_derivatives;
 mod specification;
 
 pub use contact_maps::ContactMaps;
+pub use flanks::Flanks;
 pub use format::{HEAD, TAIL};
 pub use lookup::ContactMap;
 pub use plan::{MapPlan, Unmapped};

@@ -23,7 +23,7 @@ use crate::contact::love::{Arcs, Flat, LoveContact, check_ends, flats, reach, sh
 /// Coarse cells up to the largest approach.
 const ROWS: f64 = 4.0;
 /// The grid is prepared for so many times the largest approach: coarse cells reach above it.
-const PREPARED: f64 = 1.8;
+pub(super) const PREPARED: f64 = 1.8;
 /// The root mean square error is to be this part of the largest one.
 const MEAN: f64 = 0.1;
 /// Nodes or cells of one job: the next contact starts from the last one within a job.
@@ -41,6 +41,23 @@ pub struct MapPlan {
     /// Whether the defect is its own mirror image about arc 0.
     symmetric: bool,
     patches: Vec<PatchPlan>,
+}
+
+/// Width (m) of a coarse cell along the raceway.
+pub(super) fn strip_width(element: ElementOnRaceway, largest: f64) -> f64 {
+    0.25 * element.contact_half_axes(largest)[0]
+}
+
+/// Distance (m) from the end of a flat stretch at which a contact of the largest approach is over cells of its depth
+/// alone, cells being so long.
+fn clear(element: ElementOnRaceway, largest: f64, cell: f64) -> f64 {
+    1.2 * element.contact_half_axes(largest)[0] + 3.0 * cell
+}
+
+/// The same from the end of a floor at this depth (m) below the highest raceway, which must also stay below the element
+/// that presses on the floor.
+pub(super) fn floor_margin(element: ElementOnRaceway, largest: f64, cell: f64, depth: f64) -> f64 {
+    clear(element, largest, cell).max(reach(element, depth + largest) + 2.0 * cell)
 }
 
 /// The grid solver, and where it is needed.
@@ -92,15 +109,15 @@ impl MapPlan {
     fn patches_for(&self, surface: &Surface, element: ElementOnRaceway) -> Vec<PatchPlan> {
         let largest = self.specification.largest_approach;
         let cell = self.contact.grid().cell()[0];
-        let strip_width = 0.25 * element.contact_half_axes(largest)[0];
-        // No cell of another depth may be in contact.
-        let clear = 1.2 * element.contact_half_axes(largest)[0] + 3.0 * cell;
+        let strip_width = strip_width(element, largest);
         let raised = -shallowest(surface);
         let mut free = Vec::new();
         for Flat { start, end, depth } in flats(surface) {
-            // Higher raceway on either side must stay below the element that presses on the flat.
-            let margin = clear.max(reach(element, depth + raised + largest) + 2.0 * cell);
-            let margin = if depth <= -raised { clear.max(self.contact.soft_reach()) } else { margin };
+            let margin = if depth <= -raised {
+                clear(element, largest, cell).max(self.contact.soft_reach())
+            } else {
+                floor_margin(element, largest, cell, depth + raised)
+            };
             if end - start > 2.0 * margin + 2.0 * strip_width {
                 free.push(Flat { start: start + margin, end: end - margin, depth });
             }

@@ -11,7 +11,7 @@ use crate::contact::law::elastic_law;
 use crate::contact::love::EdgeSoftness;
 use crate::contact::rolling::RacewaySide;
 use crate::scene::{Bearing, ContactEdge, DefectOn, Scene};
-use crate::surface::{Surface, SurfaceError};
+use crate::surface::{Surface, SurfaceError, rounded};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -20,9 +20,6 @@ const CLOSEST: f64 = 1e-6;
 /// Half-lengths of the contact at the largest force within which a defect is felt; a contact map ends after 1.2 of them
 /// and three cells.
 const FELT: f64 = 2.0;
-/// Arcs are rounded to this part of a metre (a picometre), so that a body turned by any angle has the same profile to
-/// the bit.
-const FINEST: f64 = 1.099511627776e12;
 
 /// A surface on a body: one defect, or several that are close together.
 #[derive(Debug, Clone)]
@@ -154,20 +151,15 @@ fn joined<'a>(
             return Err(SurfaceError::TopographyClose { numbers: [index + 1, other + 1], limit_mm: apart * 1e3 });
         };
         let arc = (centre - first.centre).rem_euclid(TAU) * radius;
-        profiles.push((finest(arc), profile));
+        profiles.push((rounded(arc), profile));
     }
     // Angles from the centre are within half a turn, and so the whole must be.
     let end = profiles.last().map_or(0.0, |(arc, profile)| arc + profile.extent().1);
     let begin = profiles.first().map_or(0.0, |(_, profile)| profile.extent().0);
-    let middle = finest(0.5 * (begin + end));
+    let middle = rounded(0.5 * (begin + end));
     profiles.iter_mut().for_each(|(arc, _)| *arc -= middle);
     let surface = Cow::Owned(Surface::Profile(crate::surface::Profile::joined(&profiles)));
     Ok(PlacedSurface { on: defect.on, surface, centre: defect.angle + middle / radius })
-}
-
-/// An arc (m) to a picometre.
-fn finest(arc: f64) -> f64 {
-    (arc * FINEST).round() / FINEST
 }
 
 /// Distance (m) between two defects from which on no contact meets both.

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::arrangement::{arranged, largest_approach, largest_force, sides, softness_of_edges};
+use super::arrangement::{PlacedSurface, arranged, largest_approach, largest_force, sides, softness_of_edges};
 use super::tracks::{element_on_track, on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::Resolution;
-use crate::contact::map::{ContactMap, ContactMaps, MapSpecification, Runner};
+use crate::contact::map::{ContactMap, ContactMaps, Flanks, MapSpecification, Runner};
 use crate::contact::rolling::RacewaySide;
 use crate::scene::{Bearing, ContactLaw, Scene};
 use crate::simulation::SimulationError;
@@ -59,11 +59,31 @@ pub struct NeededMap<'s> {
     surface: Cow<'s, Surface>,
     element: ElementOnRaceway,
     specification: MapSpecification,
+    /// How far (m) its flanks before and behind the middle are moved along the arc where the defect has them.
+    pub(super) moved: [f64; 2],
     /// Fingerprint of all that it depends on.
     pub fingerprint: u64,
 }
 
-impl NeededMap<'_> {
+impl<'s> NeededMap<'s> {
+    /// That of a spot on one raceway, for the [`prepared`] bearing.
+    pub(super) fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide) -> Self {
+        let bearing = prepared(scene);
+        let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
+        // Of the rounded clearance as well: one map serves all that are rounded to it.
+        let surface = match on_track(&spot.surface, &bearing, spot.on) {
+            Cow::Borrowed(_) => spot.surface.clone(),
+            Cow::Owned(stretched) => Cow::Owned(stretched),
+        };
+        let flanks = Some(&*surface).filter(|_| scene.contact.flank_map);
+        let (surface, moved) = match flanks.and_then(|surface| Flanks::of(surface, element, specification)) {
+            Some(Flanks { surface, moved }) => (Cow::Owned(surface), moved),
+            None => (surface, [0.0; 2]),
+        };
+        let fingerprint = ContactMap::fingerprint_of(&surface, element, specification);
+        Self { surface, element, specification, moved, fingerprint }
+    }
+
     /// Computes it. `runner` says on how many cores.
     ///
     /// # Errors
@@ -81,18 +101,11 @@ impl NeededMap<'_> {
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let scene = &*with_operating_angle(scene);
     let mut maps: Vec<NeededMap> = Vec::new();
-    let bearing = prepared(scene);
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
-            let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
-            // Of the rounded clearance as well: one map serves all that are rounded to it.
-            let surface = match on_track(&spot.surface, &bearing, spot.on) {
-                Cow::Borrowed(_) => spot.surface.clone(),
-                Cow::Owned(stretched) => Cow::Owned(stretched),
-            };
-            let fingerprint = ContactMap::fingerprint_of(&surface, element, specification);
-            if !maps.iter().any(|map| map.fingerprint == fingerprint) {
-                maps.push(NeededMap { surface, element, specification, fingerprint });
+            let map = NeededMap::of(scene, &spot, side);
+            if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
+                maps.push(map);
             }
         }
     }

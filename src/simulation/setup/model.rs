@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::arrangement::{PlacedSurface, arranged};
-use super::maps::{map_fingerprint, map_specification, prepared};
+use super::maps::{NeededMap, map_fingerprint, map_specification, prepared};
 use super::parameters::with_parameters;
 use super::tracks::{defect_radius, element_on_track, on_track, rolling_on_track, with_operating_angle};
 use super::waves::check_waves;
@@ -116,7 +116,6 @@ fn near(
     let surface = &*on_track(&spot.surface, &scene.bearing, spot.on);
     let bearer = defect_radius(&scene.bearing, spot.on);
     let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
-    let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
     if let Surface::Topography(_) = surface
         && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two
     {
@@ -131,20 +130,20 @@ fn near(
             return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
         }
         (ContactLaw::Map, _) => {
-            let wanted = ContactMap::fingerprint_of(surface, element, specification);
-            let known = stored.and_then(|stored| stored.find(wanted));
-            let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted)) {
+            let wanted = NeededMap::of(scene, spot, side);
+            let known = stored.and_then(|stored| stored.find(wanted.fingerprint));
+            let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted.fingerprint)) {
                 Some(map) => Arc::clone(map),
                 None => {
-                    let built = ContactMap::build(surface, element, specification, &mut Sequential(|_, _| {}))?;
-                    let map = Arc::new(built);
+                    let map = Arc::new(wanted.build(&mut Sequential(|_, _| {}))?);
                     computed.push(Arc::clone(&map));
                     map
                 }
             };
-            NearDefect::Map(NearMap::new(map, bearer))
+            NearDefect::Map(NearMap::of_flanks(map, bearer, wanted.moved))
         }
         (ContactLaw::Love, _) => {
+            let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
             let grid = MapPlan::new(surface, element, specification)?.into_love();
             NearDefect::Love(Box::new(NearLove::new(grid, bearer)))
         }

@@ -27,6 +27,7 @@
 //! | `contact.largest_force_n` | four times the static force on the most loaded element, rounded up |
 //! | `contact.cells` | `[48, 32]`, rollers `[48, 16]`: along and across the contact at the largest force |
 //! | `contact.map_accuracy` | 1e-3 of the largest force; without the key up to 2e-2 is tolerated and reported |
+//! | `contact.flank_map` | `false`; `true`: one map for spalls of any length with the same flanks |
 //! | `contact.damping` | `"hunt-crossley"`; its `damping_chi_s_m` 0.5 |
 //! | `contact.across_damping_s_m` | `damping_chi_s_m`; 0.5 with `"proportional"` |
 //! | `cage.slip`, `cage.initial_angle_deg` | 0, −90 |
@@ -229,6 +230,9 @@ pub(crate) struct ContactTable {
     cells: Option<[u32; 2]>,
     /// Error of the map over the largest force that is accepted.
     map_accuracy: Option<f64>,
+    /// Whether one contact map serves spalls of any length with the same flanks.
+    #[serde(default)]
+    flank_map: bool,
     /// Time constant of proportional damping.
     damping_tau_s: Option<f64>,
     /// What laws "map" and "love" take a sharp edge to be.
@@ -271,6 +275,7 @@ impl ContactTable {
             largest_force: self.largest_force_n,
             cells: self.cells,
             map_accuracy: self.map_accuracy,
+            flank_map: self.flank_map,
             edge: self.edge,
         })
     }
