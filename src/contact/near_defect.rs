@@ -75,29 +75,13 @@ pub struct NearMap {
     map: Arc<ContactMap>,
     bearer_radius: f64,
     knots: Vec<f64>,
-    /// First cell that is moved by the second of these arcs (m); those before are by the first.
-    floor: usize,
-    moved: [f64; 2],
 }
 
 impl NearMap {
     /// A map for a defect on a body of this radius (m).
     pub fn new(map: Arc<ContactMap>, bearer_radius: f64) -> Self {
-        Self::of_flanks(map, bearer_radius, [0.0; 2])
-    }
-
-    /// A map of the flanks of a defect, those before arc 0 and behind it moved along the arc by so much (m): between
-    /// them is a floor on which the arc does not count.
-    pub fn of_flanks(map: Arc<ContactMap>, bearer_radius: f64, moved: [f64; 2]) -> Self {
-        let knots = map.knots().iter().map(|&arc| (arc + moved[usize::from(arc > 0.0)]) / bearer_radius).collect();
-        let floor = map.knots().partition_point(|&arc| arc <= 0.0).saturating_sub(1);
-        Self { map, bearer_radius, knots, floor, moved }
-    }
-
-    /// Arc (m) on the map of an angle (rad) from the defect's centre.
-    #[inline(always)]
-    fn arc<T: Scalar>(&self, cell: usize, angle: T) -> T {
-        angle * T::Plain::from(self.bearer_radius) - T::from(self.moved[usize::from(cell >= self.floor)])
+        let knots = map.knots().iter().map(|arc| arc / bearer_radius).collect();
+        Self { map, bearer_radius, knots }
     }
 }
 
@@ -222,7 +206,7 @@ impl NearDefect {
     ) -> Result<Approach<T>, ContactError> {
         match self {
             Self::Map(near) => {
-                let at = [u, near.arc(cell, angle)];
+                let at = [u, angle * T::Plain::from(near.bearer_radius)];
                 let found = near.map.lookup_in(cell, at[0].value(), at[1].value())?;
                 let second = &mut |[u, s]: [f64; 2]| match curved {
                     true => near.map.second_derivatives_in(cell, u, s).map(SecondDerivatives::rows),

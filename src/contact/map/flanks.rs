@@ -1,6 +1,7 @@
 //! The flanks of a defect on the shortest floor between them on which a contact of one knows nothing of the other: their
 //! map serves every defect that has these flanks, however long its floor is.
 
+use super::lookup::{ContactMap, Stretch};
 use super::plan::{PREPARED, floor_margin, strip_width};
 use super::specification::MapSpecification;
 use crate::contact::element_on_raceway::ElementOnRaceway;
@@ -37,5 +38,20 @@ impl Flanks {
         }
         let surface = Surface::Profile(profile.with_floor([floor.start, floor.end], half));
         Some(Self { surface, moved: [floor.start + half, floor.end - half] })
+    }
+}
+
+impl ContactMap {
+    /// The same with what is before and behind arc 0, which lies on a floor, [moved](Flanks::moved) along the arc.
+    pub fn with_flanks_moved(&self, moved: [f64; 2]) -> Self {
+        let mut map = self.clone();
+        let patches = map.stretches.iter_mut().filter_map(|stretch| match stretch {
+            Stretch::Patch(patch) => Some(&mut patch.start),
+            Stretch::Flat(_) => None,
+        });
+        for arc in map.knots.iter_mut().chain(patches) {
+            *arc += moved[usize::from(*arc > 0.0)];
+        }
+        map
     }
 }

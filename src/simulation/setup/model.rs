@@ -140,7 +140,8 @@ fn near(
                     map
                 }
             };
-            NearDefect::Map(NearMap::of_flanks(map, bearer, wanted.moved))
+            let map = if wanted.moved == [0.0; 2] { map } else { Arc::new(map.with_flanks_moved(wanted.moved)) };
+            NearDefect::Map(NearMap::new(map, bearer))
         }
         (ContactLaw::Love, _) => {
             let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
