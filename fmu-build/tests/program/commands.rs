@@ -2,8 +2,8 @@
 //! for each page, with the files that its text says a user has.
 //!
 //! A command whose comment begins with `# minutes` or `# hours` is left to the tests at night or to those who write
-//! pages; what needs the repository or an environment of its own is typed by the tests of [`ELSEWHERE`]. These tests are
-//! the longest of this program's and begin, by their names, among the first.
+//! pages; what needs the repository or an environment of its own is typed by the tests of [`ELSEWHERE`]. These tests
+//! are the longest of this program's and begin, by their names, among the first.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::unwrap_used)]
 

@@ -1,5 +1,5 @@
-//! The flanks of a defect on the shortest floor between them on which a contact of one knows nothing of the other: their
-//! map serves every defect that has these flanks, however long its floor is.
+//! The flanks of a defect on the shortest floor between them on which a contact of one knows nothing of the other:
+//! their map serves every defect that has these flanks, however long its floor is.
 
 use super::lookup::{ContactMap, Stretch};
 use super::plan::{PREPARED, floor_margin, strip_width};

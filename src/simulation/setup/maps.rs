@@ -66,12 +66,11 @@ pub struct NeededMap<'s> {
 }
 
 impl<'s> NeededMap<'s> {
-    /// That of a spot on one raceway, for the [`prepared`] bearing.
+    /// That of a spot on one raceway, as an element of the [`prepared`] bearing meets it.
     pub(super) fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide) -> Self {
         let bearing = prepared(scene);
         let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
-        // Of the rounded clearance as well: one map serves all that are rounded to it.
-        let surface = match on_track(&spot.surface, &bearing, spot.on) {
+        let surface = match on_track(&spot.surface, &scene.bearing, spot.on) {
             Cow::Borrowed(_) => spot.surface.clone(),
             Cow::Owned(stretched) => Cow::Owned(stretched),
         };
