@@ -35,9 +35,11 @@ fn spalled(law: ContactLaw) -> Scene {
 
 #[test]
 fn a_spall_whose_sizes_are_set_is_one_that_was_described_with_them() {
-    for law in [ContactLaw::Hertz, ContactLaw::Map] {
-        let scene = spalled(law);
-        let sizes = [3e-3, 25e-6];
+    for (law, flank_map) in [(ContactLaw::Hertz, false), (ContactLaw::Map, false), (ContactLaw::Map, true)] {
+        let mut scene = spalled(law);
+        scene.contact.flank_map = flank_map;
+        // Long enough for a map of its flanks.
+        let sizes = [if flank_map { 4.5e-3 } else { 3e-3 }, 25e-6];
         let mut set = Simulation::new(scene.clone(), None).unwrap();
         set.set("defect.length", sizes[0]).unwrap();
         set.set("defect.depth", sizes[1]).unwrap();
