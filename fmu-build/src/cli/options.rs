@@ -108,8 +108,8 @@ pub struct Run {
     /// Write an HTML page for a browser: signals, path over the defect, spectra
     #[arg(long)]
     pub(super) html: bool,
-    /// Open the page in the browser
-    #[arg(long, requires = "html")]
+    /// Open the page in the browser; implies --html
+    #[arg(long)]
     pub(super) open: bool,
     /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
@@ -148,7 +148,7 @@ impl Run {
             noise: self.noise_db.map(|ratio| Noise::new(ratio, self.noise_seed)).transpose()?,
             wav,
             figure: !self.no_figure,
-            page: self.html,
+            page: self.html || self.open,
             open: self.open,
         })
     }

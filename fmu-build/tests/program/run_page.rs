@@ -231,14 +231,14 @@ print("drawn", ink)
 fn the_moving_bearing_is_the_run_and_opens_with_an_element_over_the_defect() {
     let path = page("page-moving", "6205-two-defects", &["--stop", "0.2", "--columns", "*"]);
     let script = path.with_file_name("moving.py");
-    fs::write(&script, MOVING).unwrap();
+    fs::write(&script, format!("{MOTION_DATA}{MOVING}")).unwrap();
     let table = path.with_extension("csv");
     let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
     assert_eq!(said.trim(), "moving");
 }
 
-/// The motion in the page beside the table. Single precision: 6e-8 of the largest angle or path.
-const MOVING: &str = r##"
+/// Reads the motion in a page, and the table.
+const MOTION_DATA: &str = r##"
 import base64
 import json
 import sys
@@ -251,10 +251,14 @@ numbers = lambda packed: np.frombuffer(base64.b64decode(packed), "<f4").astype(f
 with open(sys.argv[2], encoding="utf-8") as file:
     names = [cell.rsplit(" [", 1)[0] for cell in file.readline().strip().split(",")]
     table = dict(zip(names, np.loadtxt(file, delimiter=",").T))
+"##;
+
+/// The motion in the page beside the table. Single precision: 6e-8 of the largest angle or path.
+const MOVING: &str = r##"
 every = motion["every"]
 for j in range(1, 10):
-    for mine, name in ((motion["path"], "path"), (motion["force"]["outer"], "force.outer")):
-        there = table[f"element[{j}].{name}"][::every]
+    for mine, name, sign in ((motion["gap"]["outer"], "path", -1), (motion["force"]["outer"], "force.outer", 1)):
+        there = sign * table[f"element[{j}].{name}"][::every]
         here = numbers(mine[j - 1])
         assert len(here) == len(there) and np.abs(here - there).max() <= 1e-7 * np.abs(there).max(), (j, name)
     turned = numbers(motion["angle"][j - 1]) - table[f"element[{j}].angle"][::every]
@@ -265,6 +269,44 @@ angles = np.array([numbers(angle)[k] for angle in motion["angle"]])
 away = (angles - motion["defects"][0]["angle"] + np.pi) % (2 * np.pi) - np.pi
 assert np.abs(away).min() < 0.002 + 30 * motion["step"], away
 print("moving")
+"##;
+
+#[test]
+fn the_cross_section_is_the_run_where_balls_move_across_the_grooves() {
+    // The outer ring tilts nowhere; the inner one does with five degrees of freedom.
+    for scene in ["7205-preloaded", "7205-inner"] {
+        let path = page(&format!("page-section-{scene}"), scene, &["--stop", "0.01", "--columns", "*"]);
+        let script = path.with_file_name("section.py");
+        fs::write(&script, format!("{MOTION_DATA}{SECTION}")).unwrap();
+        let table = path.with_extension("csv");
+        let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+        assert_eq!(said.trim(), "true", "{scene}");
+    }
+}
+
+/// The cross-section in the page beside the table.
+const SECTION: &str = r##"
+section, every = motion["section"], motion["every"]
+radius = motion["radius"]
+for j in range(1, motion["count"] + 1):
+    of = lambda name: table[f"element[{j}].{name}"][::every]
+    for side in ("outer", "inner"):
+        groove, angle, force = section[side], numbers(motion["contact"][side][j - 1]), of(f"force.{side}")
+        assert np.abs(angle - of(f"contact_angle.{side}")).max() < 1e-6, (j, side)
+        # The ellipse reaches as far as the model says what it leaves to the shoulder.
+        reach = groove["half_length"] * np.cbrt(force) / groove["radius"]
+        known = groove["shoulder"] is not None
+        assert not known or np.abs(groove["shoulder"] - np.abs(angle) - reach - of(f"shoulder.{side}")).max() < 1e-6, (j, side)
+        if any(defect["on"] == side for defect in motion["defects"]):
+            continue
+        # A force and an approach of its size go together: damping of 1/2 s/m adds 5 % at 0.1 m/s, after an impact.
+        gap = numbers(motion["gap"][side][j - 1])
+        pressed = force > 1.0
+        assert pressed.sum() > 10 and (gap[pressed] < 0).all(), (j, side)
+        ratios = force[pressed] / (-gap[pressed]) ** 1.5
+        low, middle, high = np.quantile(ratios, [0.1, 0.5, 0.9])
+        assert high - low < 0.05 * middle, (j, side, low, high)
+print("true")
 "##;
 
 #[test]
