@@ -1,4 +1,4 @@
-//! The page of the book that lists every key of a scene, made of the schema that editors check scenes by.
+//! The page that lists every key of a scene, `docs/reference/keys.md`, made of the schema that editors check scenes by.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 /// Every key of a scene file, by table: what it takes, what it means, what holds without it.
-pub fn scene_page() -> Result<String> {
+fn scene_page() -> Result<String> {
     let schema = serde_json::to_value(brinell_scene_file::schema())?;
     let mut page = String::from(
         "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the schema \
@@ -101,6 +101,16 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+
+    #[test]
+    fn the_page_of_keys_is_what_the_schema_says() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/reference/keys.md");
+        let page = scene_page().unwrap();
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&path, &page).unwrap();
+        }
+        assert_eq!(fs::read_to_string(&path).unwrap(), page, "BLESS=1 writes it anew");
+    }
 
     #[test]
     fn the_list_of_keys_has_every_key_that_a_shipped_scene_gives() {

@@ -69,7 +69,7 @@ pub enum Command {
     Paper(Paper),
     /// Lists the shipped scenes, or writes the files of those that are named
     Scenes(Scenes),
-    /// Writes a commented scene of a bearing of the catalogue that runs as it is
+    /// Writes a commented scene of a bearing of the catalogue, or a sweep, that runs as it is
     New(New),
     /// Lists bearings that a scene can name: dimensions with their source, assumed ones marked
     Catalogue(Catalogue),
@@ -146,6 +146,9 @@ impl Command {
             }
             Command::New(options) => {
                 let folder = options.output.unwrap_or_default();
+                if options.sweep {
+                    return new_scene::sweep(&options.name, &folder);
+                }
                 let asked = Asked { spall: options.defect.as_ref(), axial: options.axial, hosted: options.hosted };
                 new_scene::command(&options.name, &options.bearing, asked, &folder)
             }

@@ -66,8 +66,8 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
     pub(super) step: Option<f64>,
-    /// Columns beside the time, separated by commas; * stands for any characters [default: all; from 20 000 points on
-    /// without those of single elements]
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all; in a table
+    /// of more than a million numbers sensors, probe, positions and force of the rings, speed and cage]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(super) columns: Vec<String>,
     /// What the table is written as

@@ -38,7 +38,7 @@ pub struct Scenes {
 /// Options of `new`.
 #[derive(Debug, Args)]
 pub struct New {
-    /// Name of the scene: letters, digits, - and _
+    /// Name of the scene or sweep: letters, digits, - and _
     #[arg(value_name = "NAME")]
     pub(super) name: String,
     /// The bearing, as `brinell catalogue` lists it
@@ -54,6 +54,9 @@ pub struct New {
     /// The shaft is moved by an FMU's host, as a rotor's simulation
     #[arg(long)]
     pub(super) hosted: bool,
+    /// Instead of a scene a file for `brinell sweep`, a short one that has every key
+    #[arg(long, conflicts_with_all = ["bearing", "defect", "axial", "hosted"])]
+    pub(super) sweep: bool,
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,

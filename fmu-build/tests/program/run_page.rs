@@ -178,6 +178,33 @@ Promise.all(drawn).then(() => {
 "#;
 
 #[test]
+fn a_page_of_a_long_run_has_every_sample_of_the_sensor() {
+    let path = page("page-long", "6205-healthy", &["--stop", "0.6", "--step", "2e-5"]);
+    let script = path.with_file_name("long.py");
+    fs::write(&script, LONG).unwrap();
+    let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
+    // 0.6 s at 51.2 kHz, but for the filter's half length at both ends.
+    let count: usize = said.trim().parse().unwrap();
+    assert!((30_600..30_720).contains(&count), "{count} samples");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("the page has the least and the greatest; sensor.acceleration has all"));
+}
+
+/// Samples of the sensor; all else has been made shorter.
+const LONG: &str = r##"
+import base64
+import json
+import sys
+
+text = open(sys.argv[1], encoding="utf-8").read()
+data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
+counts = {s["name"]: len(base64.b64decode(s["values"])) // 4 for p in data["panels"] for s in p["signals"]}
+sensor = counts.pop(data["motion"]["sensor"])
+assert len(counts) > 10 and max(counts.values()) < 0.9 * sensor, (sensor, counts)
+print(sensor)
+"##;
+
+#[test]
 fn no_two_curves_of_a_panel_look_alike() {
     let path = page("page-colours", "nu205-healthy", &["--stop", "0.06"]);
     let script = path.with_file_name("colours.py");
