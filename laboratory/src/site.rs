@@ -108,7 +108,7 @@ fn markdown(pages: &Path) -> Result<Vec<PathBuf>> {
 /// Where a page leads within the repository, each once, without the position on the other page.
 fn links(page: &str) -> BTreeSet<String> {
     let ends = page.split("](").skip(1).filter_map(|part| part.split([')', '#']).next());
-    let here = |link: &&str| !link.is_empty() && !link.contains("://") && !link.contains([' ', '\n']);
+    let here = |link: &&str| !link.is_empty() && !link.contains("://") && !link.contains([' ', '\n', '\\']);
     ends.filter(here).map(str::to_owned).collect()
 }
 
