@@ -36,8 +36,8 @@ const FILLED: f64 = 195.0;
 const TABLE: &str = include_str!("catalogue.csv");
 /// Letters before the number of a roller bearing, which say where its flanges are.
 const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
-/// How what makers put behind a number begins: a sign, or the letters of shields and seals (Z, RS, LL, DD, VV), snap rings
-/// and grooves (N), clearance (C), inner design and cages (E, T, M, J), taper bores (K).
+/// How what makers put behind a number begins: a sign, or the letters of shields and seals (Z, RS, LL, DD, VV), snap
+/// rings and grooves (N), clearance (C), inner design and cages (E, T, M, J), taper bores (K).
 const ADDITIONS: [char; 16] = [' ', '-', '/', '.', 'Z', 'R', 'L', 'D', 'V', 'N', 'C', 'E', 'T', 'M', 'J', 'K'];
 
 /// Angular contact bearings, after the ball bearing of the same boundary: with 15 and with 40 degrees.

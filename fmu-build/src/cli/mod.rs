@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 use brinell::scene::DegreesOfFreedom;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{Asked, catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
+use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Interface, Kind, Project, Version, talk};
 use crate::{paper, run, sweep};
@@ -144,14 +144,7 @@ impl Command {
             Command::Scenes(options) => {
                 scenes::command(&options.names, options.json, &options.output.unwrap_or_default())
             }
-            Command::New(options) => {
-                let folder = options.output.unwrap_or_default();
-                if options.sweep {
-                    return new_scene::sweep(&options.name, &folder);
-                }
-                let asked = Asked { spall: options.defect.as_ref(), axial: options.axial, hosted: options.hosted };
-                new_scene::command(&options.name, &options.bearing, asked, &folder)
-            }
+            Command::New(options) => new(&options),
             Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
             Command::Completions { shell } => {
                 // `generate` panics where its reader has gone; a text is printed as all others are.
@@ -204,6 +197,14 @@ fn build(project: &Project, options: Build) -> Result<()> {
         println!("{}", path.display());
     }
     Ok(())
+}
+
+fn new(options: &New) -> Result<()> {
+    let folder = options.output.clone().unwrap_or_default();
+    match options.asked() {
+        None => new_scene::sweep(&options.name, &folder),
+        Some(asked) => new_scene::command(&options.name, &options.bearing, asked, &folder),
+    }
 }
 
 fn size(project: &Project, options: Size) -> Result<()> {

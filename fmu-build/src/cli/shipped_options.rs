@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::options::Drawn;
-use crate::commands::Spall;
+use crate::commands::{Asked, Spall};
 use crate::paper;
 
 /// Options of `paper`.
@@ -60,6 +60,14 @@ pub struct New {
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
+}
+
+impl New {
+    /// What the scene is to be; `None` where a sweep is wanted.
+    pub(super) fn asked(&self) -> Option<Asked<'_>> {
+        let scene = Asked { spall: self.defect.as_ref(), axial: self.axial, hosted: self.hosted };
+        (!self.sweep).then_some(scene)
+    }
 }
 
 /// Options of `catalogue`.

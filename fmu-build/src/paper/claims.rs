@@ -113,8 +113,8 @@ pub(super) fn four_events(found: Vec<(FourEvents, Passage)>, project: &Project) 
             "Event 4: the element, loaded since the chatter's end, leaves the spall, and the rings ring near 1000 Hz",
             "11.0 ms, then up to ≈ 400 N (prototype); ≈ 1000 Hz",
             format!(
-                "centre over the trailing edge at {:.1} ms, up to {:.0} N at {:.1} ms (law hertz: {:.0} N); {after:.0} Hz, \
-                 24 passages averaged",
+                "centre over the trailing edge at {:.1} ms, up to {:.0} N at {:.1} ms (law hertz: {:.0} N); \
+                 {after:.0} Hz, 24 passages averaged",
                 1e3 * e.exit,
                 e.peak,
                 1e3 * e.peak_at,
@@ -147,8 +147,8 @@ pub(super) fn profile(case: &Case) -> Result<Vec<Claim>> {
     ])
 }
 
-/// Figure 5. The first of the found is under law `map`. The paper prints what was measured on; of its curves no figure is
-/// known here.
+/// Figure 5. The first of the found is under law `map`. The paper prints what was measured on; of its curves no figure
+/// is known here.
 pub(super) fn epps(case: &Case, found: &[Epps]) -> Result<Vec<Claim>> {
     let [map, hertz] = found else { return Ok(Vec::new()) };
     let hz = |rings: Option<f64>| rings.unwrap_or(f64::NAN);

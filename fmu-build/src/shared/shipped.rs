@@ -134,8 +134,8 @@ mod tests {
         let message = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
         assert_eq!(message, "6205-epp.toml: no such file; did you mean the shipped scene 6205-epps?");
         let message = scene_text(Path::new("6205-epps.toml")).unwrap_err().to_string();
-        let expected = "6205-epps.toml: no such file; 6205-epps is a shipped scene: name it as 6205-epps alone, or write \
-                        its file here by `brinell scenes 6205-epps`";
+        let expected = "6205-epps.toml: no such file; 6205-epps is a shipped scene: name it as 6205-epps alone, or \
+                        write its file here by `brinell scenes 6205-epps`";
         assert_eq!(message, expected);
         let message = scene_text(Path::new("no/6205-epps.toml")).unwrap_err().to_string();
         assert_eq!(message, format!("no/{expected}"));
