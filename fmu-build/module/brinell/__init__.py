@@ -26,7 +26,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from .results import Answer, Columns, Run, Signal
+from .results import Answer, Columns, Run
 
 __all__ = [
     "Answer",
