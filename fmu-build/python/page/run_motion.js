@@ -288,12 +288,14 @@ const Motion = (() => {
       j ^= bit;
       if (i < j) [re[i], re[j], im[i], im[j]] = [re[j], re[i], im[j], im[i]];
     }
+    const cos = Float64Array.from({ length: n >> 1 }, (_, k) => Math.cos((TAU * k) / n));
+    const sin = Float64Array.from({ length: n >> 1 }, (_, k) => -Math.sin((TAU * k) / n));
     for (let length = 2; length <= n; length <<= 1) {
-      const turn = -TAU / length, half = length >> 1;
-      for (let k = 0; k < half; k++) {
-        const [wr, wi] = [Math.cos(turn * k), Math.sin(turn * k)];
-        for (let i = k; i < n; i += length) {
-          const h = i + half, tr = re[h] * wr - im[h] * wi, ti = re[h] * wi + im[h] * wr;
+      const half = length >> 1, stride = n / length;
+      for (let begin = 0; begin < n; begin += length) {
+        for (let k = 0; k < half; k++) {
+          const i = begin + k, h = i + half, wr = cos[k * stride], wi = sin[k * stride];
+          const tr = re[h] * wr - im[h] * wi, ti = re[h] * wi + im[h] * wr;
           re[h] = re[i] - tr;
           im[h] = im[i] - ti;
           re[i] += tr;
