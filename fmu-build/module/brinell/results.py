@@ -23,7 +23,8 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
         for name, of in columns.items()
         if not np.all(np.isnan(of))
     )
-    head = f"<tr><th>column</th>{unit}<th>least</th><th>mean</th><th>greatest</th></tr>"
+    what = "signal" if units is not None else "column"
+    head = f"<tr><th>{what}</th>{unit}<th>least</th><th>mean</th><th>greatest</th></tr>"
     return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
 
 
