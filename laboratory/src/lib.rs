@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod dist;
 pub mod report;
-pub mod scene_page;
+#[cfg(test)]
+mod scene_page;
 pub mod site;
 pub mod validation;

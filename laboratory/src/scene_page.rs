@@ -1,4 +1,4 @@
-//! The page of the book that lists every key of a scene, made of the schema that editors check scenes by.
+//! The page that lists every key of a scene, `docs/reference/keys.md`, made of the schema that editors check scenes by.
 
 use std::fmt::Write;
 
@@ -6,11 +6,13 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 /// Every key of a scene file, by table: what it takes, what it means, what holds without it.
-pub fn scene_page() -> Result<String> {
+fn scene_page() -> Result<String> {
     let schema = serde_json::to_value(brinell_scene_file::schema())?;
     let mut page = String::from(
         "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the schema \
-         that the file is read by, so it names every key there is.\n",
+         that the file is read by,\nso it names every key there is, with the limits beyond which it is refused. Where \
+         the last column is empty,\n[the tables' own page](../../crates/scene-file/src/tables/mod.rs) says what holds \
+         without the key.\n",
     );
     table(&mut page, &schema, &schema, "")?;
     Ok(page)
@@ -37,7 +39,8 @@ fn table(page: &mut String, schema: &Value, table: &Value, path: &str) -> Result
             default => format!("`{default}`"),
         };
         let about = property["description"].as_str().unwrap_or_default().replace('\n', " ");
-        writeln!(page, "| `{key}` | {takes} | {about} | {without} |")?;
+        let limits = limits(if kind["items"].is_object() { meant(schema, &kind["items"]) } else { kind });
+        writeln!(page, "| `{key}` | {takes}{limits} | {about} | {without} |")?;
         inner.extend(of_table(schema, kind).map(|of| (path, of)));
     }
     inner.into_iter().try_for_each(|(path, of)| self::table(page, schema, of, &path))
@@ -58,6 +61,18 @@ fn meant<'s>(schema: &'s Value, of: &'s Value) -> &'s Value {
 fn of_table<'s>(schema: &'s Value, kind: &'s Value) -> Option<&'s Value> {
     let one = [&kind["anyOf"][0], &kind["items"], kind].into_iter().map(|of| meant(schema, of));
     one.into_iter().find(|of| of["type"] == "object")
+}
+
+/// The limits of a number, if it has any.
+fn limits(number: &Value) -> String {
+    let digits = |value: f64| match value.abs() {
+        size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{value:e}"),
+        _ => format!("{value}"),
+    };
+    let limit = |key: &str, word: &str| number[key].as_f64().map(|value| format!("{word} {}", digits(value)));
+    let low = limit("minimum", "from").or_else(|| limit("exclusiveMinimum", "above"));
+    let high = limit("maximum", "to").or_else(|| limit("exclusiveMaximum", "below"));
+    low.into_iter().chain(high).map(|limit| format!(", {limit}")).collect()
 }
 
 /// What a user writes for a key.
@@ -103,6 +118,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_page_of_keys_is_what_the_schema_says() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/reference/keys.md");
+        let page = scene_page().unwrap();
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&path, &page).unwrap();
+        }
+        assert_eq!(fs::read_to_string(&path).unwrap(), page, "BLESS=1 writes it anew");
+    }
+
+    #[test]
     fn the_list_of_keys_has_every_key_that_a_shipped_scene_gives() {
         let page = scene_page().unwrap();
         for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")).unwrap() {
@@ -118,11 +143,11 @@ mod tests {
             "## `[probe]`\n\nA table without keys.",
             "| `defect` | table; `[[defect]]` for each of several |",
             "| `mode` | table `[[sensor.mode]]`, each as often as wanted |",
-            "| `element_count` | whole number |",
+            "| `element_count` | whole number, from 1, to 1000 |",
             "| `motion` | `\"host\"`, `\"internal\"`, `\"fixed\"` | ",
             "| `filter` | `\"linear-phase\"`, `\"none\"` | ",
-            "| `load_n` | two or three numbers |",
-            "| `stop_s` | number | How long it takes. | `0.5` |",
+            "| `load_n` | two or three numbers, from -1e9, to 1e9 |",
+            "| `stop_s` | number, above 0, to 1e9 | How long it takes. | `0.5` |",
         ] {
             assert!(page.contains(part), "{part} is not in:\n{page}");
         }

@@ -1,5 +1,5 @@
 //! The command `site`: the documentation as a book, by mdBook. The pages are those of `docs/`, as they are; the first
-//! is the README, and the list of all keys of a scene is made of its schema.
+//! is the README.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -9,8 +9,6 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 use fmu_build::shared::{Project, whole_file};
-
-use crate::scene_page::scene_page;
 
 /// Chapters: a heading, the folder of its pages, and those of them that come first, in this order.
 const CHAPTERS: [(&str, &str, &[&str]); 6] = [
@@ -25,7 +23,7 @@ const CHAPTERS: [(&str, &str, &[&str]); 6] = [
 const ABOVE: [(&str, &str); 3] =
     [("README.md", "index.md"), ("CHANGELOG.md", "changes.md"), ("ARCHITECTURE.md", "house.md")];
 const SETTINGS: &str = "[book]\ntitle = \"Brinell\"\nlanguage = \"en\"\nsrc = \"src\"\n\n\
-                        [output.html]\nmathjax-support = true\nno-section-label = true\n";
+                        [output.html]\nadditional-js = [\"src/math.js\"]\nno-section-label = true\n";
 /// The command: lays out `<folder>/src` and has mdBook write `<folder>/book`.
 pub fn command(project: &Project, folder: &Path) -> Result<()> {
     let source = project.source().context("the site is made of Brinell's source, which is not there")?;
@@ -54,16 +52,11 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
     }
     whole_file::write(&folder.join("book.toml"), SETTINGS)?;
     let read = |name: &str| fs::read_to_string(source.join(name)).with_context(|| name.to_owned());
-    whole_file::write(&pages.join("reference/keys.md"), scene_page()?)?;
     for (name, page) in ABOVE {
         // In the repository they lie above the pages.
         whole_file::write(&pages.join(page), read(name)?.replace("docs/", ""))?;
     }
     bring_what_is_linked(source, &pages)?;
-    for page in markdown(&pages)? {
-        let text = fs::read_to_string(&page)?;
-        fs::write(&page, with_formulas(&text))?;
-    }
     whole_file::write(&pages.join("SUMMARY.md"), contents(&pages)?)?;
     Ok(())
 }
@@ -92,19 +85,6 @@ fn bring_what_is_linked(source: &Path, pages: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Blocks ```` ```math ```` as MathJax takes them: what Markdown would read as its own is escaped.
-fn with_formulas(page: &str) -> String {
-    let mut parts = page.split("```math\n");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (formula, rest) = part.split_once("```").unwrap_or((part, ""));
-        let escaped =
-            formula.trim().chars().flat_map(|c| c.is_ascii_punctuation().then_some('\\').into_iter().chain([c]));
-        text += &format!("\\\\[ {} \\\\]{rest}", escaped.collect::<String>());
-    }
-    text
-}
-
 fn bring(from: &Path, to: &Path) -> Result<()> {
     fs::create_dir_all(to.parent().unwrap_or(to))?;
     fs::copy(from, to).with_context(|| from.display().to_string())?;
@@ -128,7 +108,7 @@ fn markdown(pages: &Path) -> Result<Vec<PathBuf>> {
 /// Where a page leads within the repository, each once, without the position on the other page.
 fn links(page: &str) -> BTreeSet<String> {
     let ends = page.split("](").skip(1).filter_map(|part| part.split([')', '#']).next());
-    let here = |link: &&str| !link.is_empty() && !link.contains("://") && !link.contains([' ', '\n']);
+    let here = |link: &&str| !link.is_empty() && !link.contains("://") && !link.contains([' ', '\n', '\\']);
     ends.filter(here).map(str::to_owned).collect()
 }
 
@@ -191,17 +171,11 @@ mod tests {
     }
 
     #[test]
-    fn formulas_reach_mathjax_as_they_are_written() {
-        // CommonMark takes the backslash off an escaped sign, so that MathJax sees \\[ Q_i \\frac{1}{2} \\].
-        let page = with_formulas("a\n```math\nQ_i \\frac{1}{2}\n```\nb\n");
-        assert_eq!(page, "a\n\\\\[ Q\\_i \\\\frac\\{1\\}\\{2\\} \\\\]\nb\n");
-    }
-
-    #[test]
     fn every_page_is_in_the_contents_once_and_links_lead_somewhere() {
         let folder = tempfile::tempdir().unwrap();
         lay_out(root(), folder.path()).unwrap();
         let pages = folder.path().join("src");
+        assert!(SETTINGS.contains("src/math.js") && pages.join("math.js").is_file());
         let contents = fs::read_to_string(pages.join("SUMMARY.md")).unwrap();
         let names = names(&pages).unwrap();
         assert!(names.iter().any(|name| name.starts_with("decisions/")), "pages in folders are pages");

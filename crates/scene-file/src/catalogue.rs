@@ -36,6 +36,9 @@ const FILLED: f64 = 195.0;
 const TABLE: &str = include_str!("catalogue.csv");
 /// Letters before the number of a roller bearing, which say where its flanges are.
 const FLANGES: [&str; 4] = ["NU", "NJ", "NUP", "N"];
+/// How what makers put behind a number begins: a sign, or the letters of shields and seals (Z, RS, LL, DD, VV), snap
+/// rings and grooves (N), clearance (C), inner design and cages (E, T, M, J), taper bores (K).
+const ADDITIONS: [char; 16] = [' ', '-', '/', '.', 'Z', 'R', 'L', 'D', 'V', 'N', 'C', 'E', 'T', 'M', 'J', 'K'];
 
 /// Angular contact bearings, after the ball bearing of the same boundary: with 15 and with 40 degrees.
 const ANGULAR: [[&str; 3]; 11] = [
@@ -180,7 +183,7 @@ fn halfway([bore, outside, _]: [f64; 3]) -> f64 {
 
 /// The bearing of this name, what makers put behind it (`-2RS`, `ZZ`, ` ECP`, ` C3`) left out; `None` if there is none.
 /// Of an angular contact bearing the letter of its angle is a part of the name: `7205 BEP` is a 7205B, `7205-C-TVP` a
-/// 7205C.
+/// 7205C. Letters right behind a number that no maker's addition begins with (`6205x`) make another name of it.
 ///
 /// ```
 /// let bearing = brinell_scene_file::catalogued("6205-2RS").unwrap();
@@ -191,12 +194,13 @@ pub fn catalogued(designation: &str) -> Option<CatalogueBearing> {
     let letters = name.len() - name.trim_start_matches(|c: char| c.is_ascii_alphabetic()).len();
     let (letters, rest) = name.split_at(letters);
     let number: String = rest.trim_start().chars().take_while(char::is_ascii_digit).collect();
+    let behind = rest.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
     let wanted = match letters {
         "" if number.starts_with("72") => {
-            let behind = rest.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
             let angle = behind.trim_start_matches([' ', '-']).chars().next().filter(|c| ['B', 'C'].contains(c));
             format!("{number}{}", angle?)
         }
+        _ if !behind.is_empty() && !behind.starts_with(ADDITIONS) => return None,
         "" => number,
         letters if FLANGES.contains(&letters) => format!("NU{number}"),
         _ => return None,
@@ -319,7 +323,7 @@ mod tests {
 
     #[test]
     fn a_makers_additions_to_a_name_are_left_out() {
-        for name in ["6205", "6205-2RS", "6205 ZZ/C3", " 6205"] {
+        for name in ["6205", "6205-2RS", "6205 ZZ/C3", " 6205", "6205ZZ", "6205llu"] {
             assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("6205"), "{name}");
         }
         for name in ["NU205", "NU 205 ECP", "NJ205", "N 205", "NUP205/C3"] {
@@ -329,7 +333,7 @@ mod tests {
             assert_eq!(catalogued(name).map(|bearing| bearing.designation), Some("7205B"), "{name}");
         }
         assert_eq!(catalogued("7205 CD/P4A").and_then(|bearing| bearing.inside.contact_angle), Some(15.0));
-        for name in ["", "NA205", "NU", "62055", "bearing 6205", "7205", "7205A", "7213B"] {
+        for name in ["", "NA205", "NU", "62055", "bearing 6205", "6205x", "NU205Q", "7205", "7205A", "7213B"] {
             assert_eq!(catalogued(name), None, "{name}");
         }
     }

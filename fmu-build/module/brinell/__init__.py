@@ -11,7 +11,6 @@ goes wrong is a :class:`BrinellError` with the program's own words; what it rema
 
 from __future__ import annotations
 
-import html
 import json
 import os
 import shutil
@@ -20,17 +19,20 @@ import sys
 import sysconfig
 import tempfile
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from importlib import metadata
 from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
-import numpy.typing as npt
+
+from .results import Answer, Columns, Run
 
 __all__ = [
+    "Answer",
     "BrinellError",
     "BrinellWarning",
+    "Columns",
     "Run",
     "build",
     "catalogue",
@@ -52,7 +54,6 @@ except metadata.PackageNotFoundError:
     __version__ = "0+source"
 
 PathLike = Union[str, "os.PathLike[str]"]
-Signal = npt.NDArray[np.float64]
 
 
 class BrinellError(RuntimeError):
@@ -61,68 +62,6 @@ class BrinellError(RuntimeError):
 
 class BrinellWarning(UserWarning):
     """What the program remarks, as a value that was probably meant in another unit; the result is there."""
-
-
-class Run(Mapping[str, Signal]):
-    """Signals of a run by name, each with one sample per communication point.
-
-    ``run["time"]`` [s] is the first of them, ``run.units`` has the unit of each, and ``run.recording`` what the scene's
-    recorder sampled, as a structured array, or None.
-    """
-
-    def __init__(self, signals: dict[str, Signal], units: dict[str, str], recording: npt.NDArray[Any] | None) -> None:
-        self._signals = signals
-        self.units = units
-        self.recording = recording
-
-    def __getitem__(self, name: str) -> Signal:
-        return self._signals[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._signals)
-
-    def __len__(self) -> int:
-        return len(self._signals)
-
-    def __repr__(self) -> str:
-        time = self["time"]
-        return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]:g} s>"
-
-    def _repr_html_(self) -> str:
-        head = "<tr><th>signal</th><th>unit</th><th>least</th><th>mean</th><th>greatest</th></tr>"
-        rows = [
-            f"<tr><td>{name}</td><td>{self.units[name]}</td>"
-            + "".join(f"<td>{value:.4g}</td>" for value in (of.min(), of.mean(), of.max()))
-            + "</tr>"
-            for name, of in self.items()
-        ]
-        return f"<p>{html.escape(repr(self))}</p><table>{head}{''.join(rows)}</table>"
-
-    def to_pandas(self) -> Any:
-        """The signals as a ``pandas.DataFrame`` over the time [s]; its ``attrs["units"]`` has their units."""
-        import pandas
-
-        frame = pandas.DataFrame({name: of for name, of in self.items() if name != "time"})
-        frame.index = pandas.Index(self["time"], name="time [s]")
-        frame.attrs["units"] = dict(self.units)
-        return frame
-
-    def plot(self, names: str | Iterable[str] | None = None) -> Any:
-        """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
-        what the sensors show, or the housing's acceleration."""
-        from matplotlib import pyplot
-
-        chosen = [names] if isinstance(names, str) else list(names or ())
-        chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
-        units = list(dict.fromkeys(self.units[name] for name in chosen))
-        figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
-        for unit, axis in zip(units, axes[:, 0]):
-            for name in (name for name in chosen if self.units[name] == unit):
-                axis.plot(self["time"], self[name], label=name, linewidth=0.9)
-            axis.set_ylabel(unit)
-            axis.legend(loc="upper right")
-        axes[-1, 0].set_xlabel("time (s)")
-        return figure
 
 
 def program() -> str:
@@ -148,23 +87,32 @@ def build(
     *,
     platforms: str | Iterable[str] = (),
     fmi: int = 2,
+    kind: str | None = None,
+    names: str | None = None,
+    scalars: bool = False,
     reference: bool = False,
 ) -> Path:
     """Builds the FMU of a scene into the folder ``output`` and gives its path.
 
     ``platforms``: "all", or any of linux64, win64, darwin64 and aarch64-linux; without it, all that the program holds.
-    ``fmi``: version of the FMI standard, 2 or 3. With ``reference`` the inputs, outputs and options of a reference run
-    are written beside it, and into an FMU of FMI 3.0.
+    ``fmi``: version of the FMI standard, 2 or 3. ``kind``: "cs", the FMU integrates; "me", the host does; or "both".
+    ``names``: "structured", as ``element[3].path``, or "flat", as ``element_3_path``. ``scalars``: FMI 3.0 without
+    arrays. With ``reference`` the inputs, outputs and options of a reference run are written beside the FMU, and it holds
+    them.
     """
-    names = platforms if isinstance(platforms, str) else ",".join(platforms)
-    chosen = ["--fmi", str(fmi), *(["--platforms", names] if names else []), *["--reference"] * reference]
+    wanted = platforms if isinstance(platforms, str) else ",".join(platforms)
+    given = {"fmi": fmi, "platforms": wanted or None, "kind": kind, "names": names}
+    chosen = [f"--{name}={value}" for name, value in given.items() if value is not None]
+    chosen += ["--scalars"] * scalars + ["--reference"] * reference
     said = _ask("build", os.fspath(scene), "--output", os.fspath(output), *chosen)
     return Path(said.splitlines()[-1])
 
 
 def run(
-    scene: PathLike,
+    scene: PathLike | None = None,
     *,
+    bearing: str | None = None,
+    defect: str | None = None,
     stop: float | None = None,
     step: float | None = None,
     columns: str | Iterable[str] = (),
@@ -174,9 +122,11 @@ def run(
 ) -> Run:
     """Runs a scene without a host, its inputs at their start values, and gives all inputs and outputs.
 
-    ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the scene's. ``columns`` are
-    the names wanted beside the time, of the recording, too, in which ``*`` stands for any characters; ``speed_profile`` is a CSV file with
-    time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the sensors.
+    Instead of a scene ``bearing`` names one of the catalogue, which is run as :func:`new` writes it, and ``defect`` its
+    spall, as ``"inner:1.2mm"``. ``stop`` and ``step`` are the stop time and the communication step [s]; without them, the
+    scene's. ``columns`` are the names wanted beside the time, of the recording, too, in which ``*`` stands for any
+    characters; ``speed_profile`` is a CSV file with time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the
+    sensors.
     """
     given = {
         "stop": stop,
@@ -185,11 +135,13 @@ def run(
         "noise-seed": noise_seed if noise_db is not None else None,
     }
     options = [f"--{name}={value!r}" for name, value in given.items() if value is not None]
+    options += [f"--{name}={value}" for name, value in (("bearing", bearing), ("defect", defect)) if value is not None]
+    options += [os.fspath(scene)] if scene is not None else []
     options += [f"--speed-profile={os.fspath(speed_profile)}"] if speed_profile is not None else []
     names = columns if isinstance(columns, str) else ",".join(columns)
     options += [f"--columns={names or '*'}"]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        _ask("run", os.fspath(scene), "--no-figure", "--output", folder, *options)
+        _ask("run", "--no-figure", "--output", folder, *options)
         (table,) = Path(folder).glob("*.csv")
         with open(table, encoding="utf-8") as file:
             heads = [head.rpartition(" [") for head in file.readline().strip().split(",")]
@@ -216,7 +168,7 @@ def size(
     delimiter: str | None = None,
     decimal: str | None = None,
     output: PathLike | None = None,
-) -> dict[str, Any]:
+) -> Answer:
     """Length of a spall from recordings of one bearing (.csv, .txt, .npy, .npz, .mat or .wav), or why there is none.
 
     ``scene`` describes the bearing, or ``bearing`` names one of the catalogue and ``load`` [N] what it carries. One of
@@ -235,18 +187,25 @@ def size(
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         words = ["--no-figure", "--output", os.fspath(output or folder), *options]
         report: dict[str, Any] = json.loads(_ask("size", *words, "--", *(os.fspath(file) for file in files)))
-    return report
+    return Answer(report, report["recordings"])
 
 
 def new(
-    name: str, output: PathLike = ".", *, bearing: str = "6205", defect: str | None = None, hosted: bool = False
+    name: str,
+    output: PathLike = ".",
+    *,
+    bearing: str = "6205",
+    defect: str | None = None,
+    axial: float | None = None,
+    hosted: bool = False,
 ) -> Path:
     """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path.
 
-    ``defect`` is a spall as ``"inner:1.2mm"``; with ``hosted`` an FMU's host moves the shaft.
+    ``defect`` is a spall as ``"inner:1.2mm"``; ``axial`` a load [N] along the axis, with which rings have three degrees
+    of freedom; with ``hosted`` an FMU's host moves the shaft.
     """
-    spall = [f"--defect={defect}"] if defect else []
-    _ask("new", name, f"--bearing={bearing}", *spall, *["--hosted"] * hosted, "--output", os.fspath(output))
+    options = [f"--defect={defect}"] * bool(defect) + _optional("axial", axial) + ["--hosted"] * hosted
+    _ask("new", name, f"--bearing={bearing}", *options, "--output", os.fspath(output))
     return Path(output) / f"{name}.toml"
 
 
@@ -257,7 +216,7 @@ def catalogue(begins: str = "") -> list[dict[str, Any]]:
     return found
 
 
-def stiffness(scene: PathLike, *, load: float | None = None) -> dict[str, Signal]:
+def stiffness(scene: PathLike, *, load: float | None = None) -> Columns:
     """Static stiffness [N/m], load zone and load distribution over the cage angle, by column names with units."""
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("stiffness", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
@@ -265,26 +224,29 @@ def stiffness(scene: PathLike, *, load: float | None = None) -> dict[str, Signal
         with open(table, encoding="utf-8") as file:
             names = file.readline().strip().split(",")
             values = np.loadtxt(file, delimiter=",", ndmin=2)
-    return {name: np.ascontiguousarray(values[:, index]) for index, name in enumerate(names)}
+    return Columns((name, np.ascontiguousarray(values[:, index])) for index, name in enumerate(names))
 
 
-def modes(scene: PathLike, *, load: float | None = None) -> dict[str, Any]:
+def modes(scene: PathLike, *, load: float | None = None) -> Answer:
     """Natural frequencies, damping ratios and mode shapes over the cage angle, as ``brinell modes`` writes them."""
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("modes", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
         (file,) = Path(folder).glob("*-modes.json")
         found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-    return found
+    rows = [{"cage_angle_deg": one["cage_angle_deg"], **mode} for one in found["angles"] for mode in one["modes"]]
+    return Answer(found, rows, "lines")
 
 
-def contact(scene: PathLike, *, on: str, angle: float, force: float) -> dict[str, Any]:
+def contact(scene: PathLike, *, on: str, angle: float, force: float, pressure_limit: float | None = None) -> Answer:
     """Pressure of one ball on the raceway ``on`` as measured, ``angle`` [degrees] from the middle of its defect, under
-    a force [N], and the stresses below: what ``brinell contact`` prints."""
+    a force [N], and the stresses below: what ``brinell contact`` prints. ``pressure_limit`` [GPa] is the pressure at
+    which the surface yields and stays dented."""
     words = [f"--on={on}", f"--angle={angle!r}", f"--force={force!r}", "--no-figure"]
+    words += _optional("yield", pressure_limit)
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         said = _ask("contact", os.fspath(scene), *words, "--output", folder)
     found: dict[str, Any] = json.loads(said)
-    return found
+    return Answer(found, [{"contact": which, **found[which]} for which in ("found", "hertz")])
 
 
 def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool | str = False) -> Path:

@@ -22,10 +22,12 @@ const Motion = (() => {
   const ends = (surface) => [surface[0][0], surface[surface.length - 1][0]];
 
   function read(m) {
-    for (const list of [m.angle, m.path, m.force.outer, m.force.inner]) list.forEach((v, j) => (list[j] = unpack(v)));
+    const { outer, inner } = m.contact || {}, { force, gap } = m;
+    const lists = [m.angle, force.outer, force.inner, gap.outer, gap.inner, m.path, m.axial, outer, inner];
+    for (const list of lists.filter(Boolean)) list.forEach((v, j) => (list[j] = unpack(v)));
     for (const ring of [m.shaft, m.housing]) for (const key in ring) ring[key] = unpack(ring[key]);
     for (const j in m.spin) m.spin[j] = unpack(m.spin[j]);
-    m.frames = m.path[0].length;
+    m.frames = m.angle[0].length;
     m.largest = 1e-9;
     for (const of of m.force.outer) for (const force of of) if (force > m.largest) m.largest = force;
     m.deepest = Math.max(1e-9, ...m.defects.flatMap((d) => d.surface.map((p) => Math.abs(p[1]))));
@@ -175,11 +177,10 @@ const Motion = (() => {
   // Where an element is over a defect: arc from its middle to the element (m), how far the element is from the smooth
   // surface (m, negative into it), the curvature between the two, the force, and the shape of both.
   function meeting(m, d, j, f) {
-    const angle = at(m.angle[j], f), path = at(m.path[j], f), r = m.radius;
-    const moved = ["x", "y"].map((axis) => at(m.shaft[axis], f) - at(m.housing[axis], f));
-    const inside = path + m.clearance - moved[0] * Math.cos(angle) - moved[1] * Math.sin(angle);
-    const outside = { gap: -path, curve: 1 / r - 1 / m.outer, force: at(m.force.outer[j], f) };
-    const within = { gap: inside, curve: 1 / r + 1 / m.inner, force: at(m.force.inner[j], f) };
+    const angle = at(m.angle[j], f), r = m.radius;
+    const of = (side) => ({ gap: at(m.gap[side][j], f), force: at(m.force[side][j], f) });
+    const outside = { ...of("outer"), curve: 1 / r - 1 / m.outer };
+    const within = { ...of("inner"), curve: 1 / r + 1 / m.inner };
     const surface = (s) => depthAt(d.surface, s);
     if (d.on === "inner") {
       const along = m.inner * wrap(angle - at(m.shaft.angle, f) - d.angle);
@@ -208,11 +209,8 @@ const Motion = (() => {
 
   // The element at the defect, heights enlarged: where its outline lies inside the steel both are pressed flat.
   function drawZoom(m, d, met) {
+    if (!d) return;
     const { c, width, height } = surface(document.getElementById("motion-zoom"));
-    if (!d) {
-      words(c, "no defect", 0.5 * width, 0.5 * height, "center");
-      return;
-    }
     const [from, to] = ends(d.surface), half = Math.max(-from, to);
     const room = half + Math.max(0.8 * half, 0.4e-3), deepest = Math.max(...d.surface.map((p) => Math.abs(p[1])));
     const low = -1.25 * deepest - 4e-6, high = Math.max(2.5 * deepest, 15e-6);
@@ -290,12 +288,14 @@ const Motion = (() => {
       j ^= bit;
       if (i < j) [re[i], re[j], im[i], im[j]] = [re[j], re[i], im[j], im[i]];
     }
+    const cos = Float64Array.from({ length: n >> 1 }, (_, k) => Math.cos((TAU * k) / n));
+    const sin = Float64Array.from({ length: n >> 1 }, (_, k) => -Math.sin((TAU * k) / n));
     for (let length = 2; length <= n; length <<= 1) {
-      const turn = -TAU / length, half = length >> 1;
-      for (let k = 0; k < half; k++) {
-        const [wr, wi] = [Math.cos(turn * k), Math.sin(turn * k)];
-        for (let i = k; i < n; i += length) {
-          const h = i + half, tr = re[h] * wr - im[h] * wi, ti = re[h] * wi + im[h] * wr;
+      const half = length >> 1, stride = n / length;
+      for (let begin = 0; begin < n; begin += length) {
+        for (let k = 0; k < half; k++) {
+          const i = begin + k, h = i + half, wr = cos[k * stride], wi = sin[k * stride];
+          const tr = re[h] * wr - im[h] * wi, ti = re[h] * wi + im[h] * wr;
           re[h] = re[i] - tr;
           im[h] = im[i] - ti;
           re[i] += tr;
@@ -348,7 +348,6 @@ const Motion = (() => {
     words(c, `${signal.name}, ± ${m.peak.toPrecision(3)} ${signal.unit}`, left, 9);
     words(c, `${(1e3 * first).toFixed(1)} ms`, left, bottom + 10);
     words(c, `${(1e3 * last).toFixed(1)} ms`, right, bottom + 10, "right");
-    if (DATA.thinned) return words(c, "spectrum: the page has not every sample", left, split + 40);
     const n = 2 ** Math.max(7, Math.round(Math.log2(reach / step))), begin = Math.round((time - start) / step) - n / 2;
     const window_ = Float64Array.from({ length: n }, (_, i) => {
       const k = begin + i, hann = 0.5 - 0.5 * Math.cos((TAU * (i + 0.5)) / n);
@@ -381,5 +380,8 @@ const Motion = (() => {
     line.style.height = `${graph._fullLayout._size.h}px`;
   }
 
-  return { read, at, transform, drawBearing, drawZoom, drawSignal, nearest, cursor };
+  return {
+    read, at, transform, drawBearing, drawZoom, drawSignal, nearest, cursor,
+    surface, arrow, words, INK, STEEL, EDGE, LOAD, BALL, SIGNAL,
+  };
 })();

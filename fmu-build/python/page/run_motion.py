@@ -40,16 +40,49 @@ def crossing(angles, about, shaft, housing, time, spins):
     return float(time[best[1]])
 
 
+def gaps(run, about, j, time, path):
+    """How far (m) an element is from the smooth outer and inner raceway, along the contact's normal; negative where they
+    press each other. `path` is the element's at these times."""
+    angle = run.at(f"element[{j}].angle", time)
+    cos, sin = np.cos(angle), np.sin(angle)
+    moved = {axis: run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xyz"}
+    if not about["section"]:
+        return -path, path + (about["clearance"] - moved["x"] * cos - moved["y"] * sin)
+    found = []
+    for side, ring, sign in (("outer", "housing", 0.0), ("inner", "shaft", 1.0)):
+        groove = about["section"][side]
+        # The ball from the ring's centre outwards, around and along z; then along the ring's axis, and away from it.
+        outwards = about["outer_radius"] - about["element_radius"] + path - sign * (moved["x"] * cos + moved["y"] * sin)
+        around = sign * (moved["x"] * sin - moved["y"] * cos)
+        along = run.at(f"element[{j}].axial", time) - sign * moved["z"]
+        tilt_x, tilt_y = (run.at(f"{ring}.tilt.{axis}", time) for axis in "xy")
+        lean, turn = tilt_y * cos - tilt_x * sin, -(tilt_y * sin + tilt_x * cos)
+        height = (outwards * lean + around * turn + along) / np.sqrt(1 + tilt_x**2 + tilt_y**2)
+        distance = np.sqrt(outwards**2 + around**2 + along**2 - height**2)
+        centres = np.hypot(distance - groove["centre_radius"], height - groove["shift"])
+        found.append(groove["radius"] - about["element_radius"] - centres)
+    return tuple(found)
+
+
+def across(each):
+    """Where balls are that move across their grooves."""
+    contact = {side: each(f"contact_angle.{side}") for side in ("outer", "inner")}
+    return {"path": each("path"), "axial": each("axial"), "contact": contact}
+
+
 def motion(run, about):
     """All of it, or None where the table lacks an element's motion."""
     count = about["count"]
     if not all(run.has(f"element[{j}].path") for j in range(1, count + 1)):
         return None
-    every = max(1, -(-len(run.table["time"]) * (4 * count + 9) // MOST_NUMBERS))
+    of_each = 9 if about["section"] else 5
+    every = max(1, -(-len(run.table["time"]) * (of_each * count + 15) // MOST_NUMBERS))
     of = lambda name: np.asarray(run.table[name])[::every] if run.has(name) else None  # noqa: E731
     each = lambda what: [packed(of(f"element[{j}].{what}")) for j in range(1, count + 1)]  # noqa: E731
     ring = lambda name: {  # noqa: E731
-        axis: packed(of(f"{name}.{axis}")) for axis in ("x", "y", "force.x", "force.y") if run.has(f"{name}.{axis}")
+        axis: packed(of(f"{name}.{axis}"))
+        for axis in ("x", "y", "z", "tilt.x", "tilt.y", "force.x", "force.y")
+        if run.has(f"{name}.{axis}")
     }
     time = of("time")
     shaft, housing = turning(run, "shaft.angle", "shaft.speed", every), turning(run, "housing.angle", "housing.speed", every)
@@ -59,12 +92,12 @@ def motion(run, about):
         for defect in about["defects"]
         if defect["on"] == "element"
     }
+    apart = [gaps(run, about, j, time, of(f"element[{j}].path")) for j in range(1, count + 1)]
     return {
         "count": count,
         "radius": about["element_radius"],
         "outer": about["outer_radius"],
         "inner": about["inner_radius"],
-        "clearance": about["clearance"],
         "defects": about["defects"],
         "start": float(time[0]),
         "step": float(time[1] - time[0]),
@@ -75,7 +108,9 @@ def motion(run, about):
         "shaft": {**ring("shaft"), "angle": packed(shaft)},
         "housing": {**ring("housing"), "angle": packed(housing)},
         "angle": [packed(angle) for angle in angles],
-        "path": each("path"),
+        "gap": {"outer": [packed(out) for out, _ in apart], "inner": [packed(inside) for _, inside in apart]},
+        "section": about["section"],
+        **(across(each) if about["section"] else {}),
         "force": {"outer": each("force.outer"), "inner": each("force.inner")},
         "spin": {j: packed(spin) for j, spin in spins.items()},
     }

@@ -233,15 +233,12 @@ function envelope(signal, low, high) {
   return { step: line / 4, y: y.subarray(0, 2 * n).map((v, k) => (2 * Math.hypot(v, zero[k])) / count) };
 }
 
-const EVERY_SAMPLE = "Needs every sample; this run was too long for the page to hold them: a smaller --stop.";
-
-// Another band for the spectrum of the envelope, where the page has every sample.
+// Another band for the spectrum of the envelope.
 function offerBand(graph, spectrum) {
   const by = (name) => document.getElementById(`band-${name}`);
   const signal = DATA.motion && DATA.motion.signal;
   [by("low").value, by("high").value] = spectrum.band.map((f) => digits(1e-3 * f));
-  by("take").disabled = !signal || DATA.thinned;
-  if (by("take").disabled) by("said").textContent = EVERY_SAMPLE;
+  by("take").disabled = !signal;
   by("take").addEventListener("click", () => {
     const [low, high] = ["low", "high"].map((name) => Number(by(name).value));
     const possible = low >= 0 && high > low;

@@ -15,11 +15,12 @@ import numpy as np
 import plotly
 import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
-from run_motion import motion
+from run_motion import gaps, motion
 from run_spectra import spectra, spectrogram
+from scipy import signal
 
-# Numbers of all signals together, 5.3 bytes each in the page.
-MOST_NUMBERS = 400_000
+# Numbers of all signals together, 5.3 bytes each in the page; samples of the sensor, which sound and envelope are of.
+MOST_NUMBERS, MOST_OF_SENSOR = 400_000, 1 << 20
 # Points of the paths over one defect; passages of which more are a solid block.
 MOST_OF_PATH, MOST_PASSAGES = 20_000, 60
 # Wine, indigo, olive and grey beside the palette of all figures: ten that are told apart, then the same with dashes.
@@ -76,24 +77,31 @@ def panels(run, count):
     """Panels of signals: unit, and name and factor of each signal."""
     sensors = [name for name in run.table if name.startswith("sensor")]
     yield "m/s²", [(name, 1.0) for name in sensors]
-    yield "µm", [(name, 1e6) for name in ("probe.x", "probe.y")]
+    yield "µm", [(name, 1e6) for name in ("probe.x", "probe.y", "probe.z")]
     yield "m/s²", [(f"{ring}.ay", 1.0) for ring in ("housing", "shaft")]
-    yield "µm", [(f"{ring}.{axis}", 1e6) for ring in ("shaft", "housing") for axis in "xy"]
-    yield "N", [("shaft.force.x", 1.0), ("shaft.force.y", 1.0)]
+    yield "µm", [(f"{ring}.{axis}", 1e6) for ring in ("shaft", "housing") for axis in "xyz"]
+    yield "mrad", [(f"{ring}.tilt.{axis}", 1e3) for ring in ("shaft", "housing") for axis in "xy"]
+    yield "N", [(f"shaft.force.{axis}", 1.0) for axis in "xyz"]
     yield "N", [(f"element[{j}].force.outer", 1.0) for j in range(1, count + 1)]
     yield "Hz", [("shaft.speed", 1 / (2 * np.pi)), ("cage.speed", 1 / (2 * np.pi))]
 
 
-def signals(run, count):
+def filtered(values, step):
+    """A signal with no more samples than the page holds, and their step (s): filtered, if it has more."""
+    every = -(-len(values) // MOST_OF_SENSOR)
+    return (values, step) if every == 1 else (signal.resample_poly(values, 1, every), every * step)
+
+
+def signals(run, count, sensor):
     """What the page shows over time, and in words how it was made shorter."""
     chosen = [
         (unit, [s for s in of if run.moves(s[0]) or (unit == "Hz" and run.has(s[0]))])
         for unit, of in panels(run, count)
     ]
     chosen = [(unit, of) for unit, of in chosen if of]
-    total = sum(len(run.source(name)["time"]) for _, of in chosen for name, _ in of)
+    total = sum(len(run.source(name)["time"]) for _, of in chosen for name, _ in of if name != sensor)
     every = 1 if total <= MOST_NUMBERS else int(np.ceil(2 * total / MOST_NUMBERS))
-    shown, words = [], {}
+    shown, words, whole = [], {}, ""
     for unit, of in chosen:
         row = []
         # What moves most is drawn first, so that it hides nothing.
@@ -102,9 +110,15 @@ def signals(run, count):
             source = run.source(name)
             values, time = np.ascontiguousarray(source[name]) * factor, source["time"]
             step = float(time[-1] - time[0]) / (len(time) - 1)
-            kept = extremes(values, every) if every > 1 else values
-            # A pair of extremes stands for so many samples.
-            width = step if every == 1 else 0.5 * every * step
+            if name == sensor:
+                kept, width = filtered(values, step)
+                whole = f"; {name} has all {len(values):,}" if len(kept) == len(values) else (
+                    f"; {name} is filtered to a sample every {1e6 * width:.4g} µs"
+                )
+            else:
+                kept = extremes(values, every) if every > 1 else values
+                # A pair of extremes stands for so many samples.
+                width = step if every == 1 else 0.5 * every * step
             label = short(name, len(of)) + (" (dashed)" if dash == "dash" else "")
             row.append(
                 {
@@ -129,8 +143,8 @@ def signals(run, count):
         )
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
     if every > 1:
-        said += f". The run is long: of each {every} samples the page has the least and the greatest"
-    return shown, said, every > 1
+        said += f". The run is long: of each {every} samples the page has the least and the greatest{whole}"
+    return shown, said
 
 
 def short(name, count):
@@ -147,16 +161,13 @@ def position_and_height(run, about, defect, element, time):
     element), and how far its centre is above the path over the smooth surface (m, upwards in the page)."""
     angle = run.at(f"element[{element}].angle", time)
     path = np.asarray(run.source("element[1].path")[f"element[{element}].path"])
+    outside, inside = gaps(run, about, element, time, path)
     if defect["on"] == "inner":
-        moved = [run.at(f"shaft.{axis}", time) - run.at(f"housing.{axis}", time) for axis in "xy"]
-        # Against the inner ring: 0 where the element just touches its smooth raceway.
-        path = path + (about["clearance"] - moved[0] * np.cos(angle) - moved[1] * np.sin(angle))
-        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), path
-    # Into the outer raceway is down.
+        return defect["radius"] * wrapped(angle - run.at("shaft.angle", time) - defect["angle"]), inside
     if defect["on"] == "outer":
         along = angle - run.at("housing.angle", time) if about["turns"] else angle
-        return defect["radius"] * wrapped(along - defect["angle"]), -path
-    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), -path
+        return defect["radius"] * wrapped(along - defect["angle"]), outside
+    return np.degrees(wrapped(run.at(f"element[{element}].spin_angle", time))), outside
 
 
 def passages(run, about, defect, room):
@@ -221,7 +232,7 @@ def path(run, about, defect, number):
 
 
 # In the order in which one needs the other.
-SCRIPTS = ("run_motion.js", "run_player.js", "run_page.js")
+SCRIPTS = ("run_motion.js", "run_section.js", "run_player.js", "run_page.js")
 HEAD = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -243,6 +254,10 @@ p {{ margin: 0.3em 0; color: #555; }}
 .beside {{ flex: 1 1 420px; min-width: 300px; }}
 #motion-zoom {{ height: 300px; }}
 #motion-signal {{ height: 260px; }}
+#section-ball {{ flex: 1 1 420px; min-width: 300px; height: 560px; }}
+#section-angles {{ height: 440px; }}
+.beside table {{ border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; width: 100%; }}
+.beside td, .beside th {{ border-bottom: 1px solid #ddd; padding: 3px 6px; text-align: left; }}
 #around {{ position: relative; }}
 #motion-cursor {{ position: absolute; width: 1px; background: #D55E00; pointer-events: none; display: none; }}
 #errors {{ color: #b00020; white-space: pre-line; }}
@@ -278,12 +293,23 @@ MOVING = """<h2>The bearing</h2>
 <div class="moving"><canvas id="motion-bearing"></canvas><div class="beside"><canvas id="motion-zoom"></canvas>
 <canvas id="motion-signal"></canvas></div></div>
 """
+# Numbers of the outer contact, then of the inner.
+ROWS = "".join("<tr>" + "".join(f'<td id="section-{k}-{i}"></td>' for i in range(5)) + "</tr>" for k in range(2))
+SECTION = f"""<h2>Across the grooves</h2>
+<div class="bar"><select id="section-element" aria-label="ball"></select><span id="section-said"></span></div>
+<div class="moving"><canvas id="section-ball"></canvas><div class="beside"><canvas id="section-angles"></canvas>
+<table><tr><th>groove</th><th>contact angle</th><th>force (N)</th><th>half of the ellipse across</th>
+<th>to the shoulder</th></tr>{ROWS}</table></div></div>
+<p>To scale but for the arrows; vermilion: the ellipse along the groove and the forces on the rings. Below it the centres
+of grooves and ball, enlarged. Beside it, over the angle around the bearing, where the contacts of all balls are now and,
+light, in the whole run. Grooves are drawn smooth; how wide rings are is not in the scene.</p>
+"""
 
 
 def main():
     about = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     run = Run(about)
-    shown, said, thinned = signals(run, about["count"])
+    shown, said = signals(run, about["count"], about["sensor"])
     if about["recorder_rate"]:
         rate = about["recorder_rate"]
         said += f". What the recorder samples at {rate:g} Hz of accelerations and forces on rings is filtered"
@@ -291,10 +317,11 @@ def main():
     paths = [one for one in paths if one]
     drawn = list(spectra(about))
     moving = motion(run, about)
-    data = {"panels": shown, "paths": paths, "spectra": [of for _, of in drawn], "motion": moving, "thinned": thinned}
+    data = {"panels": shown, "paths": paths, "spectra": [of for _, of in drawn], "motion": moving}
     data["spectrogram"] = spectrogram(run, about) if about["changes"] else None
     lines = "\n".join(f"<p>{html.escape(line)}</p>" for line in [about["description"], said, *about["notes"]] if line)
-    text = HEAD.format(name=html.escape(about["name"]), lines=lines, moving=MOVING if moving else "")
+    pictures = (MOVING + SECTION * bool(about["section"])) if moving else ""
+    text = HEAD.format(name=html.escape(about["name"]), lines=lines, moving=pictures)
     text += "".join(f'<h2>{html.escape(one["title"])}</h2><div id="path-{k}"></div>\n' for k, one in enumerate(paths))
     text += "".join(
         f'<h2>{html.escape(title)}</h2>{BAND if one["band"] else ""}<div id="spectrum-{k}"></div>\n'

@@ -16,6 +16,7 @@ function startMotion() {
     Motion.drawBearing(m, f, met.j);
     Motion.drawZoom(m, d, met);
     Motion.drawSignal(m, time);
+    Section.draw(m, met.j, f);
     Motion.cursor(time);
     by("time").value = String((time - m.start) / (end - m.start));
     by("said").textContent = `${(1e3 * time).toFixed(3)} ms`;
@@ -40,12 +41,18 @@ function startMotion() {
   });
   m.defects.forEach((d, k) => by("defect").add(new Option(`defect ${k + 1}: ${d.on}${d.element ? ` ${d.element}` : ""}`, k)));
   by("defect").hidden = m.defects.length < 2;
+  if (!m.defects.length) by("zoom").style.display = "none";
   by("defect").addEventListener("change", () => {
     defect = Number(by("defect").value);
     show();
   });
-  by("sound").disabled = !m.signal || DATA.thinned;
-  if (by("sound").disabled) by("sound").title = "needs every sample: a shorter run";
+  if (m.section) {
+    const element = document.getElementById("section-element");
+    element.add(new Option(m.defects.length ? "at the defect" : "of the greatest force", 0));
+    for (let j = 1; j <= m.count; j++) element.add(new Option(`ball ${j}`, j));
+    element.addEventListener("change", show);
+  }
+  by("sound").disabled = !m.signal;
   by("sound").addEventListener("click", () => playSound(m.signal));
   document.getElementById("signals").on("plotly_click", (event) => {
     time = Math.max(m.start, Math.min(end, event.points[0].x));

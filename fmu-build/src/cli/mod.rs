@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 use brinell::scene::DegreesOfFreedom;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{Asked, catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
+use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Interface, Kind, Project, Version, talk};
 use crate::{paper, run, sweep};
@@ -69,7 +69,7 @@ pub enum Command {
     Paper(Paper),
     /// Lists the shipped scenes, or writes the files of those that are named
     Scenes(Scenes),
-    /// Writes a commented scene of a bearing of the catalogue that runs as it is
+    /// Writes a commented scene of a bearing of the catalogue, or a sweep, that runs as it is
     New(New),
     /// Lists bearings that a scene can name: dimensions with their source, assumed ones marked
     Catalogue(Catalogue),
@@ -144,11 +144,7 @@ impl Command {
             Command::Scenes(options) => {
                 scenes::command(&options.names, options.json, &options.output.unwrap_or_default())
             }
-            Command::New(options) => {
-                let folder = options.output.unwrap_or_default();
-                let asked = Asked { spall: options.defect.as_ref(), axial: options.axial, hosted: options.hosted };
-                new_scene::command(&options.name, &options.bearing, asked, &folder)
-            }
+            Command::New(options) => new(&options),
             Command::Catalogue(options) => catalogue::command(&options.filter, options.json),
             Command::Completions { shell } => {
                 // `generate` panics where its reader has gone; a text is printed as all others are.
@@ -201,6 +197,14 @@ fn build(project: &Project, options: Build) -> Result<()> {
         println!("{}", path.display());
     }
     Ok(())
+}
+
+fn new(options: &New) -> Result<()> {
+    let folder = options.output.clone().unwrap_or_default();
+    match options.asked() {
+        None => new_scene::sweep(&options.name, &folder),
+        Some(asked) => new_scene::command(&options.name, &options.bearing, asked, &folder),
+    }
 }
 
 fn size(project: &Project, options: Size) -> Result<()> {

@@ -66,8 +66,8 @@ pub struct Run {
     /// Communication step in seconds [default: the scene's]
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = number)]
     pub(super) step: Option<f64>,
-    /// Columns beside the time, separated by commas; * stands for any characters [default: all; from 20 000 points on
-    /// without those of single elements]
+    /// Columns beside the time, separated by commas; * stands for any characters [default: all; in a table
+    /// of more than a million numbers sensors, probe, positions and force of the rings, speed and cage]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub(super) columns: Vec<String>,
     /// What the table is written as
@@ -108,8 +108,8 @@ pub struct Run {
     /// Write an HTML page for a browser: signals, path over the defect, spectra
     #[arg(long)]
     pub(super) html: bool,
-    /// Open the page in the browser
-    #[arg(long, requires = "html")]
+    /// Open the page in the browser; implies --html
+    #[arg(long)]
     pub(super) open: bool,
     /// Folder for what is written [default: the current one]
     #[arg(short, long, value_name = "DIR")]
@@ -148,7 +148,7 @@ impl Run {
             noise: self.noise_db.map(|ratio| Noise::new(ratio, self.noise_seed)).transpose()?,
             wav,
             figure: !self.no_figure,
-            page: self.html,
+            page: self.html || self.open,
             open: self.open,
         })
     }

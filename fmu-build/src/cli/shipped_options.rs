@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::options::Drawn;
-use crate::commands::Spall;
+use crate::commands::{Asked, Spall};
 use crate::paper;
 
 /// Options of `paper`.
@@ -38,7 +38,7 @@ pub struct Scenes {
 /// Options of `new`.
 #[derive(Debug, Args)]
 pub struct New {
-    /// Name of the scene: letters, digits, - and _
+    /// Name of the scene or sweep: letters, digits, - and _
     #[arg(value_name = "NAME")]
     pub(super) name: String,
     /// The bearing, as `brinell catalogue` lists it
@@ -54,9 +54,20 @@ pub struct New {
     /// The shaft is moved by an FMU's host, as a rotor's simulation
     #[arg(long)]
     pub(super) hosted: bool,
+    /// Instead of a scene a file for `brinell sweep`, a short one that has every key
+    #[arg(long, conflicts_with_all = ["bearing", "defect", "axial", "hosted"])]
+    pub(super) sweep: bool,
     /// Folder for the file [default: the current one]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
+}
+
+impl New {
+    /// What the scene is to be; `None` where a sweep is wanted.
+    pub(super) fn asked(&self) -> Option<Asked<'_>> {
+        let scene = Asked { spall: self.defect.as_ref(), axial: self.axial, hosted: self.hosted };
+        (!self.sweep).then_some(scene)
+    }
 }
 
 /// Options of `catalogue`.

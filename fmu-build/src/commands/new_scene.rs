@@ -1,4 +1,4 @@
-//! The command `new`: a commented scene of a bearing of the catalogue that runs as it is.
+//! The command `new`: a commented scene of a bearing of the catalogue that runs as it is, or a sweep's file.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -80,13 +80,23 @@ pub(crate) fn command(name: &str, bearing: &str, asked: Asked, folder: &Path) ->
     let text = text(name, &named(bearing)?, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
+    write_new(name, &text, folder)?;
+    schema::write_beside(folder)
+}
+
+/// The command with `--sweep`: writes a sweep's file with every key.
+pub(crate) fn sweep(name: &str, folder: &Path) -> Result<()> {
+    write_new(name, include_str!("../../../examples/sweep.toml"), folder)
+}
+
+fn write_new(name: &str, text: &str, folder: &Path) -> Result<()> {
     let path = folder.join(format!("{name}.toml"));
     if path.exists() {
         bail!("{} is there already and stays as it is", path.display());
     }
     whole_file::write(&path, text)?;
     println!("{}", path.display());
-    schema::write_beside(folder)
+    Ok(())
 }
 
 fn text(name: &str, bearing: &CatalogueBearing, asked: Asked) -> Result<String> {

@@ -75,7 +75,7 @@ pub fn command(project: &Project, part: Part, json: bool, figure: bool, folder: 
     let claims = match part {
         Part::Fig1 => claims::four_events(four_events(project, data.path())?, project)?,
         Part::Fig4 => claims::profile(&epps_profile(data.path())?)?,
-        Part::Fig5 => claims::epps(&epps(project, data.path())?),
+        Part::Fig5 => claims::epps(&Case::shipped("6205-epps")?, &epps(project, data.path())?)?,
         Part::Fig6 => claims::averages(&averaged(project, data.path())?),
         Part::Table1 => claims::test_bearings()?,
         Part::Table2 => claims::dimensions()?,

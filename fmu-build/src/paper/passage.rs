@@ -65,6 +65,8 @@ pub struct FourEvents {
     pub exit: f64,
     /// Greatest outer force about the exit (N).
     pub peak: f64,
+    /// When that is (s).
+    pub peak_at: f64,
 }
 
 impl FourEvents {
@@ -83,8 +85,9 @@ impl FourEvents {
         };
         let settled = before(exit, &|k| outer[k] == 0.0 || inner[k] == 0.0);
         let near = |k: &usize| (time[*k] - exit).abs() < 1.5e-3;
-        let peak = (0..time.len()).filter(near).map(|k| outer[k]).fold(0.0, f64::max);
-        Self { free, floor, reload, settled, exit, peak }
+        let highest = (0..time.len()).filter(near).max_by(|&a, &b| outer[a].total_cmp(&outer[b]));
+        let (peak, peak_at) = highest.map_or((f64::NAN, f64::NAN), |k| (outer[k], time[k]));
+        Self { free, floor, reload, settled, exit, peak, peak_at }
     }
 }
 

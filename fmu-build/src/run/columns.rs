@@ -10,6 +10,25 @@ use crate::package::description::units;
 /// The first column.
 const TIME: &str = "time";
 
+/// Columns of a long run.
+const USUAL: [&str; 15] = [
+    "shaft.speed",
+    "shaft.x",
+    "shaft.y",
+    "shaft.z",
+    "shaft.tilt.x",
+    "shaft.tilt.y",
+    "shaft.force.*",
+    "shaft.angle",
+    "housing.x",
+    "housing.y",
+    "housing.z",
+    "housing.ay",
+    "sensor*",
+    "probe.*",
+    "cage.angle",
+];
+
 /// Columns beside the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
@@ -27,9 +46,9 @@ impl Columns {
         Self::those(table, &|_| true)
     }
 
-    /// The same without what each element has of its own.
-    pub fn without_elements(table: &[Variable]) -> Self {
-        Self::those(table, &|name| !name.starts_with("element["))
+    /// What sensors and probe show, where the rings are, the force between them, speed and cage.
+    pub fn usual(table: &[Variable]) -> Self {
+        Self::those(table, &|name| USUAL.iter().any(|pattern| matches(pattern, name)))
     }
 
     /// Those that `patterns` name, in the order of the table; `*` in a pattern stands for any characters.

@@ -36,8 +36,8 @@ use wav::{Loudness, Wav};
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
 
-/// Steps from which on a table has no columns of single elements unless they are named.
-const LONG: u64 = 20_000;
+/// Numbers up to which a table has all columns unless some are named: 17 MB as CSV.
+const WHOLE: u64 = 1_000_000;
 
 /// What the user says.
 #[derive(Debug, Clone)]
@@ -137,20 +137,20 @@ fn spare_profiles(model: &Model, table: &Path) -> Result<()> {
     }
 }
 
-/// The table's columns. A long run's leave out what each element has, unless they are asked for: hundreds of megabytes.
+/// The table's columns: those that are asked for, else all, of a long run what is measured and how the rings move.
 fn chosen(simulation: &Simulation, options: &Options) -> Result<Columns> {
     let table = simulation.table();
     if !options.columns.is_empty() {
         return Columns::matching(table, &options.columns);
     }
-    if options.grid.count < LONG {
-        return Ok(Columns::all(table));
+    let (all, points) = (Columns::all(table), options.grid.count + 1);
+    if points.saturating_mul(all.names().count() as u64) <= WHOLE {
+        return Ok(all);
     }
-    note!(
-        "note: {} points: the table has no columns of single elements; --columns '*' gives all",
-        options.grid.count + 1
-    );
-    Ok(Columns::without_elements(table))
+    let usual = Columns::usual(table);
+    let (many, few) = (all.names().count(), usual.names().count());
+    note!("note: {points} points: the table has {few} of {many} columns; --columns '*' gives all");
+    Ok(usual)
 }
 
 /// Keeps what the recorder has sampled, the whole file or the columns that are asked for.

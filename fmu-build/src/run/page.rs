@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use anyhow::Result;
+use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::DefectOn;
 use brinell::surface::Surface;
@@ -68,6 +69,7 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
         "sensor": if scene.sensors.is_empty() { "housing.ay".to_owned() } else { scene.sensor_variable(0) },
         "changes": files.changes,
         "turns": scene.housing_speed.is_some(),
+        "section": section(model),
         "signals": files.signals.path(),
         "recording": files.recording.map(Signals::path),
         "recorder_rate": scene.recorder.map(|recorder| recorder.rate),
@@ -76,4 +78,22 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
         "defects": defects.collect::<Vec<_>>(),
         "notes": notes,
     }))
+}
+
+/// The grooves of the outer and of the inner ring, where balls move across them; lengths in metres, shoulders in
+/// radians from the groove's bottom.
+fn section(model: &Model) -> Value {
+    let Some(space) = &model.simulation.equations().0.space else { return Value::Null };
+    let of = |side: RacewaySide| {
+        let (k, groove) = (side as usize, &space.grooves[side as usize]);
+        json!({
+            "centre_radius": groove.centre_radius,
+            "shift": groove.shift,
+            "radius": groove.radius,
+            "shoulder": space.shoulders[k],
+            // Half of the ellipse across the groove under 1 N; it grows with the cube root of the force.
+            "half_length": space.half_lengths[k],
+        })
+    };
+    json!({ "outer": of(RacewaySide::Outer), "inner": of(RacewaySide::Inner) })
 }

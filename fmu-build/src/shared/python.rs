@@ -32,6 +32,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("run_page.js", include_str!("../../python/page/run_page.js")),
     ("run_page.py", include_str!("../../python/page/run_page.py")),
     ("run_player.js", include_str!("../../python/page/run_player.js")),
+    ("run_section.js", include_str!("../../python/page/run_section.js")),
     ("run_spectra.py", include_str!("../../python/page/run_spectra.py")),
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),

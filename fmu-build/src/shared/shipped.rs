@@ -57,6 +57,12 @@ pub fn scene_text(path: &Path) -> Result<String> {
             bail!("{name}: no such file; {}", missing(scene));
         }
     }
+    if !path.exists()
+        && let Some(scene) = path.file_stem().and_then(|stem| stem.to_str())
+        && text(&format!("{scene}.toml")).is_some()
+    {
+        bail!("{}: no such file; {}", path.display(), missing(scene));
+    }
     fs::read_to_string(path).with_context(|| path.display().to_string())
 }
 
@@ -64,7 +70,7 @@ pub fn scene_text(path: &Path) -> Result<String> {
 fn missing(scene: &str) -> String {
     if text(&format!("{scene}.toml")).is_some() {
         return format!(
-            "{scene} is a shipped scene: name it without .toml, or write its file here by `brinell scenes {scene}`"
+            "{scene} is a shipped scene: name it as {scene} alone, or write its file here by `brinell scenes {scene}`"
         );
     }
     nearest(scenes(), scene).map_or_else(
@@ -128,9 +134,13 @@ mod tests {
         let message = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
         assert_eq!(message, "6205-epp.toml: no such file; did you mean the shipped scene 6205-epps?");
         let message = scene_text(Path::new("6205-epps.toml")).unwrap_err().to_string();
-        assert!(message.contains("6205-epps is a shipped scene: name it without .toml"), "{message}");
+        let expected = "6205-epps.toml: no such file; 6205-epps is a shipped scene: name it as 6205-epps alone, or \
+                        write its file here by `brinell scenes 6205-epps`";
+        assert_eq!(message, expected);
         let message = scene_text(Path::new("no/6205-epps.toml")).unwrap_err().to_string();
-        assert_eq!(message, "no/6205-epps.toml");
+        assert_eq!(message, format!("no/{expected}"));
+        let message = scene_text(Path::new("no/mine.toml")).unwrap_err().to_string();
+        assert_eq!(message, "no/mine.toml");
         assert!(text_beside(Path::new("no/6205-epps"), "6205-epps-trace.csv").is_err(), "another folder's scene");
     }
 }

@@ -50,10 +50,8 @@ fn takes_long(comment: &str) -> bool {
     comment.starts_with("minutes") || comment.starts_with("hours")
 }
 
-/// What a user of this page has before: an example of a sweep, a speed over time, recordings.
+/// What a user of this page has before: a sweep, a speed over time, recordings.
 fn prepare(page: &str, folder: &Path) {
-    fs::create_dir_all(folder.join("examples")).unwrap();
-    fs::write(folder.join("examples/sweep.toml"), SWEEP).unwrap();
     fs::write(folder.join("design.toml"), SWEEP).unwrap();
     fs::write(folder.join("up.csv"), SPEED).unwrap();
     if page.ends_with("sizing.md") || page.ends_with("commands.md") {

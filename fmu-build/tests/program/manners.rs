@@ -67,19 +67,3 @@ fn a_name_that_is_nearly_right_and_a_file_that_is_a_shipped_scene_are_answered()
         assert!(errors.contains(answer), "{errors}");
     }
 }
-
-#[test]
-fn a_long_table_has_no_columns_of_single_elements_unless_they_are_asked_for() {
-    let heads = |more: &[&str]| {
-        let run = ["run", "6205-rotor", "--step", "1e-5", "--stop", "0.2", "--no-figure", "-o", "."];
-        let folder = common::folder("manners-long");
-        let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
-        let output = program.current_dir(&folder).args(run).args(more).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = std::fs::read_to_string(folder.join("6205-rotor.csv")).unwrap();
-        text.lines().next().unwrap().to_owned()
-    };
-    let (lean, all) = (heads(&[]), heads(&["--columns", "*"]));
-    assert!(!lean.contains("element[") && lean.contains("shaft.force.y"), "{lean}");
-    assert!(all.contains("element[1].path"), "{all}");
-}

@@ -255,13 +255,19 @@ assert brinell.__version__
 scene = brinell.new("mine", bearing="6206", defect="inner:1.2mm")
 assert scene.is_file() and 'on = "inner"' in scene.read_text()
 assert 'motion = "host"' in brinell.new("hosted", hosted=True).read_text()
+assert "load_n = [0.0, -350.0, 200.0]" in brinell.new("pushed", axial=200.0).read_text()
 (found,) = brinell.catalogue("6205")
 # Z/2 (1 - D/Dpw) turns of the shaft, with the catalogue's own dimensions.
 ratio = found["element_diameter_mm"] / found["pitch_diameter_mm"]
 assert abs(found["bpfo_orders"] - found["element_count"] / 2 * (1 - ratio)) < 1e-3, found
 table = brinell.stiffness("er16k-tb1-hosted-shaft", load=400)
 assert len({column.size for column in table.values()}) == 1
-assert brinell.modes("er16k-tb1-hosted-shaft", load=400)
+modes = brinell.modes("er16k-tb1-hosted-shaft", load=400)
+assert "undamped_frequency_hz" in modes._repr_html_() and "stiffness.free [N/m]" in table._repr_html_()
+dented = brinell.contact("er16k-tb1", on="outer", angle=7.9, force=500, pressure_limit=6)
+assert isinstance(dented, dict) and dented["found"]["max_pressure_mpa"] <= 6000.1, dented["found"]
+assert "<td>found.max_pressure_mpa</td><td>6000</td>" in dented._repr_html_()
+assert len(brinell.run(bearing="6206", defect="inner:1.2mm", stop=0.001)["time"]) == 51
 run = brinell.run("6205-healthy", stop=0.005)
 assert "<table>" in run._repr_html_() and run["time"][-1] == 0.005
 assert [axis.get_ylabel() for axis in run.plot(["shaft.y", "shaft.force.y"]).axes] == ["m", "N"]
@@ -271,6 +277,9 @@ except ModuleNotFoundError:
     pass
 else:
     assert run.to_pandas().attrs["units"]["shaft.y"] == "m"
+    assert list(table.to_pandas().columns) == list(table)[1:]
+    assert len(modes.to_pandas()) == sum(len(one["modes"]) for one in modes["angles"])
+    assert list(dented.to_pandas()["contact"]) == ["found", "hertz"]
 text = scene.read_text() + "\n[recorder]\nrate_hz = 12800.0\n"
 scene.write_text(text)
 with warnings.catch_warnings(record=True) as said:
@@ -291,4 +300,10 @@ except brinell.BrinellError as error:
     assert "middle" in str(error), error
 else:
     raise AssertionError("no body of that name")
+try:
+    brinell.build("6205-healthy", kind="cs", names="flat", scalars=True)
+except brinell.BrinellError as error:
+    assert "--scalars is for --fmi 3" in str(error), error
+else:
+    raise AssertionError("FMI 2.0 has no arrays")
 "#;

@@ -192,6 +192,23 @@ fn noise_is_of_the_sensors_alone_as_strong_as_asked_and_the_same_again() {
 }
 
 #[test]
+fn a_large_table_has_what_is_measured_and_how_the_rings_move_unless_all_is_asked_for() {
+    let folder = common::folder("run-large-table");
+    let long = ["--stop", "0.15", "--step", "1e-5"];
+    let said = run(&shipped("7205-preloaded"), &folder, &long);
+    assert!(said.contains("note: 15001 points: the table has 16 of 162 columns; --columns '*' gives all"), "{said}");
+    let (names, rows) = csv(&folder.join("7205-preloaded.csv"));
+    assert_eq!((names.len(), rows.len()), (17, 15_001), "{names:?}");
+    for name in ["time", "sensor.acceleration", "shaft.z", "shaft.force.z", "probe.x", "cage.angle"] {
+        assert!(names.iter().any(|known| known == name), "{name} in {names:?}");
+    }
+    let size = fs::metadata(folder.join("7205-preloaded.csv")).unwrap().len();
+    assert!(size < 6_000_000, "{size} bytes");
+    run(&shipped("7205-preloaded"), &folder, &["--stop", "0.0001", "--step", "1e-5"]);
+    assert_eq!(csv(&folder.join("7205-preloaded.csv")).0.len(), 163);
+}
+
+#[test]
 fn the_recorders_file_keeps_what_columns_name() {
     let folder = common::folder("recorded-columns");
     let scene = changed(&folder, |text| format!("{text}\n[recorder]\nrate_hz = 12800.0\n"));

@@ -178,6 +178,33 @@ Promise.all(drawn).then(() => {
 "#;
 
 #[test]
+fn a_page_of_a_long_run_has_every_sample_of_the_sensor() {
+    let path = page("page-long", "6205-healthy", &["--stop", "0.6", "--step", "2e-5"]);
+    let script = path.with_file_name("long.py");
+    fs::write(&script, LONG).unwrap();
+    let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
+    // 0.6 s at 51.2 kHz, but for the filter's half length at both ends.
+    let count: usize = said.trim().parse().unwrap();
+    assert!((30_600..30_720).contains(&count), "{count} samples");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("the page has the least and the greatest; sensor.acceleration has all"));
+}
+
+/// Samples of the sensor; all else has been made shorter.
+const LONG: &str = r##"
+import base64
+import json
+import sys
+
+text = open(sys.argv[1], encoding="utf-8").read()
+data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
+counts = {s["name"]: len(base64.b64decode(s["values"])) // 4 for p in data["panels"] for s in p["signals"]}
+sensor = counts.pop(data["motion"]["sensor"])
+assert len(counts) > 10 and max(counts.values()) < 0.9 * sensor, (sensor, counts)
+print(sensor)
+"##;
+
+#[test]
 fn no_two_curves_of_a_panel_look_alike() {
     let path = page("page-colours", "nu205-healthy", &["--stop", "0.06"]);
     let script = path.with_file_name("colours.py");
@@ -231,14 +258,14 @@ print("drawn", ink)
 fn the_moving_bearing_is_the_run_and_opens_with_an_element_over_the_defect() {
     let path = page("page-moving", "6205-two-defects", &["--stop", "0.2", "--columns", "*"]);
     let script = path.with_file_name("moving.py");
-    fs::write(&script, MOVING).unwrap();
+    fs::write(&script, format!("{MOTION_DATA}{MOVING}")).unwrap();
     let table = path.with_extension("csv");
     let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
     assert_eq!(said.trim(), "moving");
 }
 
-/// The motion in the page beside the table. Single precision: 6e-8 of the largest angle or path.
-const MOVING: &str = r##"
+/// Reads the motion in a page, and the table.
+const MOTION_DATA: &str = r##"
 import base64
 import json
 import sys
@@ -251,10 +278,14 @@ numbers = lambda packed: np.frombuffer(base64.b64decode(packed), "<f4").astype(f
 with open(sys.argv[2], encoding="utf-8") as file:
     names = [cell.rsplit(" [", 1)[0] for cell in file.readline().strip().split(",")]
     table = dict(zip(names, np.loadtxt(file, delimiter=",").T))
+"##;
+
+/// The motion in the page beside the table. Single precision: 6e-8 of the largest angle or path.
+const MOVING: &str = r##"
 every = motion["every"]
 for j in range(1, 10):
-    for mine, name in ((motion["path"], "path"), (motion["force"]["outer"], "force.outer")):
-        there = table[f"element[{j}].{name}"][::every]
+    for mine, name, sign in ((motion["gap"]["outer"], "path", -1), (motion["force"]["outer"], "force.outer", 1)):
+        there = sign * table[f"element[{j}].{name}"][::every]
         here = numbers(mine[j - 1])
         assert len(here) == len(there) and np.abs(here - there).max() <= 1e-7 * np.abs(there).max(), (j, name)
     turned = numbers(motion["angle"][j - 1]) - table[f"element[{j}].angle"][::every]
@@ -265,6 +296,45 @@ angles = np.array([numbers(angle)[k] for angle in motion["angle"]])
 away = (angles - motion["defects"][0]["angle"] + np.pi) % (2 * np.pi) - np.pi
 assert np.abs(away).min() < 0.002 + 30 * motion["step"], away
 print("moving")
+"##;
+
+#[test]
+fn the_cross_section_is_the_run_where_balls_move_across_the_grooves() {
+    // The outer ring tilts nowhere; the inner one does with five degrees of freedom.
+    for scene in ["7205-preloaded", "7205-inner"] {
+        let path = page(&format!("page-section-{scene}"), scene, &["--stop", "0.01", "--columns", "*"]);
+        let script = path.with_file_name("section.py");
+        fs::write(&script, format!("{MOTION_DATA}{SECTION}")).unwrap();
+        let table = path.with_extension("csv");
+        let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+        assert_eq!(said.trim(), "true", "{scene}");
+    }
+}
+
+/// The cross-section in the page beside the table.
+const SECTION: &str = r##"
+section, every = motion["section"], motion["every"]
+radius = motion["radius"]
+for j in range(1, motion["count"] + 1):
+    of = lambda name: table[f"element[{j}].{name}"][::every]
+    for side in ("outer", "inner"):
+        groove, angle, force = section[side], numbers(motion["contact"][side][j - 1]), of(f"force.{side}")
+        assert np.abs(angle - of(f"contact_angle.{side}")).max() < 1e-6, (j, side)
+        # The ellipse reaches as far as the model says what it leaves to the shoulder.
+        reach = groove["half_length"] * np.cbrt(force) / groove["radius"]
+        if groove["shoulder"] is not None:
+            left = groove["shoulder"] - np.abs(angle) - reach
+            assert np.abs(left - of(f"shoulder.{side}")).max() < 1e-6, (j, side)
+        if any(defect["on"] == side for defect in motion["defects"]):
+            continue
+        # A force and an approach of its size go together: damping of 1/2 s/m adds 5 % at 0.1 m/s, after an impact.
+        gap = numbers(motion["gap"][side][j - 1])
+        pressed = force > 1.0
+        assert pressed.sum() > 10 and (gap[pressed] < 0).all(), (j, side)
+        ratios = force[pressed] / (-gap[pressed]) ** 1.5
+        low, middle, high = np.quantile(ratios, [0.1, 0.5, 0.9])
+        assert high - low < 0.05 * middle, (j, side, low, high)
+print("true")
 "##;
 
 #[test]

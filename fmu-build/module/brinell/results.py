@@ -1,0 +1,139 @@
+"""What the package's functions give: signals of a run, columns over an angle, answers as the program prints them."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Signal = npt.NDArray[np.float64]
+
+
+def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, str] | None = None) -> str:
+    """An HTML table of the least, the mean and the greatest of each column."""
+    unit = "<th>unit</th>" if units is not None else ""
+    rows = "".join(
+        f"<tr><td>{html.escape(name)}</td>"
+        + (f"<td>{html.escape(units[name])}</td>" if units is not None else "")
+        + "".join(f"<td>{value:.4g}</td>" for value in (np.nanmin(of), np.nanmean(of), np.nanmax(of)))
+        + "</tr>"
+        for name, of in columns.items()
+        if not np.all(np.isnan(of))
+    )
+    what = "signal" if units is not None else "column"
+    head = f"<tr><th>{what}</th>{unit}<th>least</th><th>mean</th><th>greatest</th></tr>"
+    return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
+
+
+class Run(Mapping[str, Signal]):
+    """Signals of a run by name, each with one sample per communication point.
+
+    ``run["time"]`` [s] is the first of them, ``run.units`` has the unit of each, and ``run.recording`` what the scene's
+    recorder sampled, as a structured array, or None.
+    """
+
+    def __init__(self, signals: dict[str, Signal], units: dict[str, str], recording: npt.NDArray[Any] | None) -> None:
+        self._signals = signals
+        self.units = units
+        self.recording = recording
+
+    def __getitem__(self, name: str) -> Signal:
+        return self._signals[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._signals)
+
+    def __len__(self) -> int:
+        return len(self._signals)
+
+    def __repr__(self) -> str:
+        time = self["time"]
+        return f"<brinell.Run: {len(self)} signals, {time.size} points until {time[-1]:g} s>"
+
+    def _repr_html_(self) -> str:
+        return _summary(repr(self), self, self.units)
+
+    def to_pandas(self) -> Any:
+        """The signals as a ``pandas.DataFrame`` over the time [s]; its ``attrs["units"]`` has their units."""
+        import pandas
+
+        frame = pandas.DataFrame({name: of for name, of in self.items() if name != "time"})
+        frame.index = pandas.Index(self["time"], name="time [s]")
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def plot(self, names: str | Iterable[str] | None = None) -> Any:
+        """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
+        what the sensors show, or the housing's acceleration."""
+        from matplotlib import pyplot
+
+        chosen = [names] if isinstance(names, str) else list(names or ())
+        chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
+        units = list(dict.fromkeys(self.units[name] for name in chosen))
+        figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
+        for unit, axis in zip(units, axes[:, 0]):
+            for name in (name for name in chosen if self.units[name] == unit):
+                axis.plot(self["time"], self[name], label=name, linewidth=0.9)
+            axis.set_ylabel(unit)
+            axis.legend(loc="upper right")
+        axes[-1, 0].set_xlabel("time (s)")
+        return figure
+
+
+class Columns(dict[str, Signal]):
+    """Columns over the cage angle, a dictionary by their names with units."""
+
+    def _repr_html_(self) -> str:
+        return _summary(f"{len(self)} columns, {len(next(iter(self.values())))} cage angles", self)
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` over the first column, the cage angle."""
+        import pandas
+
+        frame = pandas.DataFrame(dict(self))
+        return frame.set_index(frame.columns[0])
+
+
+class Answer(dict[str, Any]):
+    """What the program writes as JSON, a dictionary. Its rows are those of :meth:`to_pandas`: one for a recording, a mode
+    at a cage angle, or a contact."""
+
+    def __init__(self, answer: dict[str, Any], rows: list[dict[str, Any]], shown: str = "") -> None:
+        super().__init__(answer)
+        self._rows = rows
+        # The list that is shown below numbers and words.
+        self._shown = shown
+
+    def _repr_html_(self) -> str:
+        tables: list[list[tuple[Any, ...]]] = [[("what", "value"), *_flat(self)]]
+        listed = [dict(_flat(row)) for row in self.get(self._shown, [])]
+        tables += [[tuple(listed[0]), *(tuple(row.values()) for row in listed)]] if listed else []
+        return "".join(_table(rows) for rows in tables)
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` of the rows' numbers and words."""
+        import pandas
+
+        return pandas.DataFrame([dict(_flat(row)) for row in self._rows])
+
+
+def _table(rows: list[tuple[Any, ...]]) -> str:
+    """An HTML table below its first row."""
+    cell = lambda value: f"{value:.6g}" if isinstance(value, float) else html.escape(str(value))  # noqa: E731
+    tags = ["th"] + ["td"] * (len(rows) - 1)
+    lines = ("".join(f"<{tag}>{cell(value)}</{tag}>" for value in row) for tag, row in zip(tags, rows))
+    return "<table>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+
+
+def _flat(answer: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Numbers and words by their names, those within others behind a point; of a list what is short."""
+    for name, value in answer.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{before}{name}.")
+        elif not isinstance(value, list):
+            yield before + name, value
+        elif len(value) <= 4 and not any(isinstance(one, (dict, list)) for one in value):
+            yield before + name, ", ".join(f"{one:.6g}" if isinstance(one, float) else str(one) for one in value)
