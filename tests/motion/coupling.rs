@@ -230,7 +230,9 @@ fn the_suggested_step_follows_from_what_the_host_reads_once_it_steps() {
         for _ in 0..2 {
             simulation.restore(&before).unwrap();
             simulation.step(1e-7).unwrap();
-            reads.iter().for_each(|name| drop(simulation.get(name).unwrap()));
+            for name in reads {
+                simulation.get(name).unwrap();
+            }
         }
         simulation.get("solver.suggested_step").unwrap() / of_second_order
     };

@@ -114,8 +114,7 @@ fn steps(draw: &mut Draw, case: &mut SpatialCase, at: [f64; 5]) {
         let rate = if i == 0 { 0.0 } else { speeds[0] * draw.between(-1.0, 1.0) };
         let says = i == 0 || draw.chance(0.7);
         if says && i > 0 {
-            (0..case.freedom)
-                .for_each(|a| moves[a][2] = 2.0 * far[a] / length.powi(2) * draw.between(-1.0, 1.0));
+            (0..case.freedom).for_each(|a| moves[a][2] = 2.0 * far[a] / length.powi(2) * draw.between(-1.0, 1.0));
         }
         let rings = case.rings.map(|ring| match ring.motion {
             Motion::Internal => ring.load.map(|load| [load * share, 0.0, 0.0]),
