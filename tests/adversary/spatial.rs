@@ -40,7 +40,7 @@ fn names(case: &SpatialCase) -> Vec<(String, Kind)> {
         names.extend(["x", "y", "z"].map(|axis| (format!("{name}.force.{axis}"), Kind::Force)));
         names.extend(["x", "y"].map(|axis| (format!("{name}.moment.{axis}"), Kind::Moment)));
     }
-    if case.freedom == 5 {
+    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         names.extend(["x", "y"].map(|axis| (format!("shaft.tilt.{axis}"), Kind::Tilt)));
     }
     for j in 1..=case.count {
@@ -64,7 +64,7 @@ fn values(case: &SpatialCase, run: &SpatialRun<'_>) -> Vec<f64> {
         }
         values.extend(run.acting.rings[which]);
     }
-    if case.freedom == 5 {
+    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         values.extend(&run.y[3..5]);
     }
     for (j, ball) in run.acting.balls.iter().enumerate() {
