@@ -39,8 +39,8 @@ const SET_UP: [&str; 6] = [
     "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
 ];
 
-/// The environment of all packages that examples need; with `BRINELL_NEWEST_ROSS` that of the newest ROSS which pip finds
-/// for this Python, and of what it brings along.
+/// The environment of all packages that examples need; with `BRINELL_NEWEST_ROSS` that of the newest ROSS which pip
+/// finds for this Python, and of what it brings along.
 fn with_all_packages() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
     PYTHON.get_or_init(|| {

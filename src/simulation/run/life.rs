@@ -255,6 +255,20 @@ impl Simulation {
         }
     }
 
+    /// Whether the host holds the force of an instant over a step, as far as what it reads shows.
+    #[inline]
+    pub fn holds_force(&self) -> bool {
+        self.wiring.holds_force()
+    }
+
+    /// Notes how the host is wired once it steps, in classes of `value_access`.
+    #[inline]
+    pub(super) fn note_wiring(&mut self, classes: u8) {
+        if self.run.state.history.step > 0.0 {
+            self.wiring.note(classes);
+        }
+    }
+
     /// Notes that what follows after `last` is no longer that of the values set.
     pub(in crate::simulation) fn invalidate(&mut self, last: UpToDate) {
         self.up_to_date = self.up_to_date.min(last);

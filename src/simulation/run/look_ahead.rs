@@ -73,20 +73,6 @@ impl Simulation {
         Ok(Some(self.value_of(Quantity::SuggestedStep)))
     }
 
-    /// Whether the host holds the force of an instant over a step, as far as what it reads shows.
-    #[inline]
-    pub fn holds_force(&self) -> bool {
-        self.wiring.holds_force()
-    }
-
-    /// Notes how the host is wired once it steps, in classes of `value_access`.
-    #[inline]
-    pub(super) fn note_wiring(&mut self, classes: u8) {
-        if self.run.state.history.step > 0.0 {
-            self.wiring.note(classes);
-        }
-    }
-
     /// Takes the step.
     fn step_ahead(&mut self, history: &History) -> Result<RingForces, SimulationError> {
         let state = &mut self.run.state;
