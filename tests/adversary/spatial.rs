@@ -40,7 +40,7 @@ fn names(case: &SpatialCase) -> Vec<(String, Kind)> {
         names.extend(["x", "y", "z"].map(|axis| (format!("{name}.force.{axis}"), Kind::Force)));
         names.extend(["x", "y"].map(|axis| (format!("{name}.moment.{axis}"), Kind::Moment)));
     }
-    if case.freedom == 5 {
+    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         names.extend(["x", "y"].map(|axis| (format!("shaft.tilt.{axis}"), Kind::Tilt)));
     }
     for j in 1..=case.count {
@@ -64,7 +64,7 @@ fn values(case: &SpatialCase, run: &SpatialRun<'_>) -> Vec<f64> {
         }
         values.extend(run.acting.rings[which]);
     }
-    if case.freedom == 5 {
+    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         values.extend(&run.y[3..5]);
     }
     for (j, ball) in run.acting.balls.iter().enumerate() {
@@ -103,11 +103,21 @@ impl Subject {
             all.push(("housing.speed".to_owned(), host.speeds[1][0], host.speeds[1][1]));
         }
         for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
-            if case.rings[which].motion != Motion::Internal {
-                continue;
+            let free = if case.freedom == 5 && which == 0 { 5 } else { 3 };
+            match case.rings[which].motion {
+                Motion::Internal => {}
+                Motion::Fixed => continue,
+                Motion::Host => {
+                    let places = ["#x", "#y", "#z", "tilt.#x", "tilt.#y"];
+                    for (place, moves) in places.into_iter().zip(host.rings[which]).take(free) {
+                        for (order, value) in ["", "v", "a"].into_iter().zip(moves) {
+                            all.push((format!("{name}.{}", place.replace('#', order)), value, 0.0));
+                        }
+                    }
+                    continue;
+                }
             }
             let inputs = ["load.x", "load.y", "load.z", "load_moment.x", "load_moment.y"];
-            let free = if case.freedom == 5 && which == 0 { 5 } else { 3 };
             for (input, [value, rate, _]) in inputs.into_iter().zip(host.rings[which]).take(free) {
                 all.push((format!("{name}.{input}"), value, rate));
             }
@@ -170,7 +180,9 @@ fn judge(case: &SpatialCase) -> Result<f64, String> {
     let bearing = SpatialBearing::new(case);
     let host = case.steps[0].host.as_ref();
     let sense = case.rings[0].load[2].signum();
-    let balance = bearing.balance(host, [0.0, 0.0, sense * 20e-6, 0.0, 0.0]);
+    let hosted = host.filter(|_| case.rings[0].motion == Motion::Host);
+    let z = hosted.map_or(sense * 20e-6, |host| host.rings[0][2][0]);
+    let balance = bearing.balance(host, [0.0, 0.0, z, 0.0, 0.0]);
     let forces = |balance: &Balance| {
         balance.held.balls.iter().flat_map(|ball| ball.contacts).fold(0.0f64, |m, touch| m.max(touch.force))
     };
@@ -250,10 +262,14 @@ fn pushed(bearing: &SpatialBearing, mut y: Vec<f64>, length: f64) -> Vec<f64> {
 
 #[test]
 fn every_random_scene_in_space_is_a_possible_one() {
+    let hosted = std::sync::atomic::AtomicUsize::new(0);
     for_seeds(300, |_, draw: &mut Draw| {
         let case = random(draw);
+        let count = usize::from(case.rings[0].motion == Motion::Host);
+        hosted.fetch_add(count, std::sync::atomic::Ordering::Relaxed);
         brinell_scene_file::from_toml(&case.toml()).map(|_| ()).map_err(|error| format!("{error}\n{}", case.toml()))
     });
+    assert!(hosted.into_inner() > 50, "the host moves hardly any shaft");
 }
 
 #[test]

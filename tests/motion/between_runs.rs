@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::shipped;
-use brinell::scene::{ContactLaw, DefectShape, Recorder, RecorderFilter, Scene};
+use brinell::scene::{ContactLaw, DefectOn, DefectShape, Recorder, RecorderFilter, Scene};
+use brinell::simulation::interface::table::Kind;
 use brinell::simulation::{Simulation, SimulationError};
 
 fn sized(scene: &Scene, [new_length, new_depth]: [f64; 2]) -> Scene {
@@ -62,6 +63,29 @@ fn a_spall_that_does_not_fit_is_refused_with_its_size_and_the_limit() {
     bearing.set("defect.length", 20e-6).unwrap();
     let error = bearing.initialize(0.0).unwrap_err();
     assert!(matches!(error, SimulationError::Scene(_)), "{error}");
+}
+
+#[test]
+fn every_law_takes_the_sizes_that_are_declared() {
+    let mut tilted = shipped("er16k-element");
+    let DefectOn::Element { tilt, .. } = &mut tilted.defects[0].on else { panic!() };
+    *tilt = 0.05;
+    let [outer, inner, element] = ["er16k-tb1", "er16k-inner", "er16k-element"].map(shipped);
+    let laws = [ContactLaw::Hertz, ContactLaw::Map, ContactLaw::Love];
+    for (law, scene) in laws.into_iter().flat_map(|law| [&outer, &inner, &element, &tilted].map(|scene| (law, scene))) {
+        let mut scene = scene.clone();
+        (scene.contact.law, scene.contact.cells, scene.contact.map_accuracy) = (law, Some([8, 8]), Some(0.1));
+        let bearing = Simulation::new(scene.clone(), None).unwrap();
+        for name in ["defect.length", "defect.depth"] {
+            let row = bearing.variable(bearing.reference(name).unwrap()).unwrap();
+            let Kind::Real { min: Some(min), max: Some(max), .. } = row.kind else { panic!("{name} has no limits") };
+            for size in [min, max] {
+                let mut bearing = Simulation::new(scene.clone(), None).unwrap();
+                bearing.set(name, size).unwrap();
+                bearing.initialize(0.0).unwrap_or_else(|error| panic!("{law:?}, {name} = {size}: {error}"));
+            }
+        }
+    }
 }
 
 #[test]

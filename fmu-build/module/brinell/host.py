@@ -127,8 +127,16 @@ class Numbers:
         self.arguments = instance.slave.component, references, len(names), self.array.ctypes.data_as(POINTER(c_double))
 
 
+def named(kind, axis):
+    """Name of the shaft's variable along x, y, z, about x or about y: `force` and `tilt.x` make `shaft.moment.x`."""
+    if kind.endswith("force"):
+        return f"shaft.{kind.replace('force', 'moment') if '.' in axis else kind}.{axis[-1]}"
+    return f"shaft.{axis[:-1]}{kind}{axis[-1]}"
+
+
 class Bearing(Instance):
-    """A bearing whose shaft the host moves. Vectors are pairs (x, y) in arrays.
+    """A bearing whose shaft the host moves. Vectors are arrays of x and y; of x, y and z with three degrees of freedom;
+    of these and the tilts about x and y with five, along which what acts is a moment.
 
     No load stands on its housing unless `start` names one: the host's shaft says what the bearing carries.
     """
@@ -138,26 +146,31 @@ class Bearing(Instance):
         if "shaft.x" not in self.inputs:
             self.close()
             raise ValueError(f'{name}: a host moves no shaft of this scene; it needs motion = "host" in [shaft]')
-        self.motion = Numbers(self, [f"shaft.{q}" for q in ("x", "y", "vx", "vy", "ax", "ay")])
-        self.tangent = Numbers(self, [f"shaft.stiffness.{a}{b}" for a in "xy" for b in "xy"])
-        self.forces = Numbers(self, [f"shaft.{q}" for q in ("mean_force.x", "mean_force.y", "force.x", "force.y")])
+        self.axes = [axis for axis in ("x", "y", "z", "tilt.x", "tilt.y") if f"shaft.{axis}" in self.inputs]
+        self.motion = Numbers(self, [named(order, axis) for order in ("", "v", "a") for axis in self.axes])
+        short = [axis.replace(".", "_") for axis in self.axes]
+        pairs = [f"{a}{b}" if len(a + b) == 2 else f"{a}_{b}" for a in short for b in short]
+        self.tangent = Numbers(self, [f"shaft.stiffness.{pair}" for pair in pairs])
+        self.forces = Numbers(self, [named(kind, axis) for kind in ("mean_force", "force") for axis in self.axes])
         self.enter({**dict.fromkeys(self.inputs & {"housing.load.x", "housing.load.y"}, 0.0), **(start or {})})
 
     def force_at(self, position):
         """During initialization: the static force on the shaft, elements and housing in balance."""
-        self.write(["shaft.x", "shaft.y"], position)
-        return self.read(["shaft.force.x", "shaft.force.y"])
+        self.write([named("", axis) for axis in self.axes], position)
+        return self.read([named("force", axis) for axis in self.axes])
 
     def rest(self, load):
         """During initialization: moves the shaft to where the bearing carries `load` and gives that position.
 
         Newton with differences of 1 nm: the force is convex in the approach, so that from deep in contact the
-        way goes downhill. A housing on springs may yield a lot: 0.1 mm of approach are enough for some 1000 N.
+        way goes downhill. A housing on springs may yield a lot: 0.1 mm of approach are enough for some 1000 N. In space,
+        where rings move along and about each other as well, it begins at 20 µm.
         """
-        position = 1e-4 * np.asarray(load) / np.linalg.norm(load)
+        size = len(self.axes)
+        position = (1e-4 if size == 2 else 2e-5) * np.asarray(load) / np.linalg.norm(load)
         for _ in range(100):
             force = self.force_at(position)
-            slope = np.column_stack([(self.force_at(position + d) - force) / 1e-9 for d in 1e-9 * np.eye(2)])
+            slope = np.column_stack([(self.force_at(position + d) - force) / 1e-9 for d in 1e-9 * np.eye(size)])
             change = np.linalg.solve(slope, -(force + load))
             position = position + change
             if np.linalg.norm(change) < 1e-12:
@@ -170,13 +183,15 @@ class Bearing(Instance):
 
         Two contacts of an element are in series, each with its normal stiffness and, for damping Q(1 + χ δ'), with χ Q;
         at frequencies far below the element's own they yield c (k_i² + k_o²)/(k_i + k_o)², which is c/2 within 0.1 %.
-        Damping τ k δ' of both makes τ times the stiffness.
+        Damping τ k δ' of both makes τ times the stiffness. In space other damping is left out.
         """
         stiffness = self.stiffness()
         (constant,) = self.read(["contact.damping"])
         if self.units["contact.damping"] == "s":
             return stiffness, constant * stiffness
-        damping = np.zeros((2, 2))
+        damping = np.zeros_like(stiffness)
+        if len(self.axes) > 2:
+            return stiffness, damping
         count = sum(name.endswith(".path") for name in self.reference)
         for j in range(1, count + 1):
             angle, force = self.read([f"element[{j}].angle", f"element[{j}].force.inner"])
@@ -198,9 +213,10 @@ class Bearing(Instance):
         except FMICallException as error:
             raise RuntimeError(f"step at {self.time:.9g} s: {what_was_said(error)}") from None
         self.time += length
-        return self.forces.array[:2].copy(), self.forces.array[2:].copy()
+        mean, end = self.forces.array.reshape(2, -1)
+        return mean.copy(), end.copy()
 
     def stiffness(self):
         """The tangent stiffness matrix now [N/m]."""
         self.call(self.slave.fmi2GetReal, *self.tangent.arguments)
-        return self.tangent.array.reshape(2, 2).copy()
+        return self.tangent.array.reshape(len(self.axes), -1).copy()

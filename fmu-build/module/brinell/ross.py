@@ -132,7 +132,7 @@ class Speed:
 
 def simulate(
     rotor, bearings, speed, stop, step=5e-5, *, loads=None, forces=None, seen=("housing.ay",), passes=2,
-    tolerance=1e-5,
+    tolerance=1e-5, preloads=None,
 ):  # fmt: skip
     """Runs a rotor in bearings until `stop` [s], from static rest, and gives a `Response`.
 
@@ -141,12 +141,17 @@ def simulate(
     stand on nodes beside the weight; `forces` functions of times, angles, speeds and accelerations at nodes, as
     `unbalance` makes them, 0 at the start. `seen` are the outputs kept of each bearing that has them. Errors over the
     communication step are in docs/how-to/step.md; `passes`: at the top of this file.
+
+    With bearings of three or five degrees of freedom the rotor, one of six a node, moves along its axis too, and tilts
+    their inner rings; loads and forces may have a z. Bearings are mounted so that they carry no moment at rest, and
+    `preloads` [N] by their nodes are what the shaft pushes each with along z beside its share of the loads: of a pair
+    back to back 150 and -150. The shaft's torsion is left out.
     """
     loads, forces, speed = dict(loads or {}), dict(forces or {}), Speed(speed)
     check(rotor, bearings, loads, forces)
     if passes < 1 or not (step > 0.0 and stop > 0.0):
         raise ValueError(f"{passes} passes, step {step} s, stop {stop} s: at least one pass, and positive times")
-    with Coupled(rotor, bearings, loads, speed.at(0.0)[1], tolerance) as coupled:
+    with Coupled(rotor, bearings, loads, speed.at(0.0)[1], tolerance, dict(preloads or {})) as coupled:
         return propagated(coupled, forces, speed, step, stop, passes, seen)
 
 
@@ -221,11 +226,14 @@ def fmus_of(bearings):
 
 
 class Lateral:
-    """ROSS's matrices of a rotor for x, y and the two tilts of each node."""
+    """ROSS's matrices of a rotor for x, y and the two tilts of each node, and if `in_space` z."""
 
-    def __init__(self, rotor, speed, acceleration=0.0):
+    def __init__(self, rotor, speed, acceleration=0.0, in_space=False):
         per_node, nodes = rotor.number_dof, len(rotor.nodes)
-        keep = [0, 1, 3, 4] if per_node == 6 else [0, 1, 2, 3]
+        if in_space and per_node != 6:
+            raise ValueError("bearings of three or five degrees of freedom: they need a rotor of six a node")
+        self.axes = ["x", "y", "z", "tilt.x", "tilt.y"] if in_space else ["x", "y", "tilt.x", "tilt.y"]
+        keep = [("x", "y", "z", "tilt.x", "tilt.y").index(axis) for axis in self.axes] if per_node == 6 else range(4)
         rows = [n * per_node + k for n in range(nodes) for k in keep]
         rows += list(range(nodes * per_node, rotor.ndof))  # housings: x, y (and z, which nothing moves)
         at = np.ix_(rows, rows)
@@ -234,29 +242,38 @@ class Lateral:
         self.C = rotor.C(speed)[at] + speed * rotor.G()[at]
         self.size = len(rows)
 
-    def nodes(self, nodes):
-        """Indices of x and y of nodes, one after the other."""
-        return np.array([4 * n + axis for n in nodes for axis in (0, 1)], dtype=int)
+    def at(self, node, axes=("x", "y")):
+        """Indices of a node's coordinates along these axes."""
+        return [len(self.axes) * node + self.axes.index(axis) for axis in axes]
+
+    def nodes(self, nodes, axes=None):
+        """Indices of x and y of nodes, or of the axes of each, one after the other."""
+        axes = axes or [("x", "y")] * len(nodes)
+        return np.array([i for node, along in zip(nodes, axes) for i in self.at(node, along)], dtype=int)
 
 
 class Coupled:
-    """The bearings' FMUs at rest below the rotor, and their linear stand-ins. Vectors have x and y of each in turn."""
+    """The bearings' FMUs at rest below the rotor, and their linear stand-ins. Vectors have the coordinates of each in
+    turn."""
 
-    def __init__(self, rotor, bearings, loads, speed, tolerance):
+    def __init__(self, rotor, bearings, loads, speed, tolerance, preloads=None):
         self.rotor, self.nodes, self.fmus = rotor, tuple(bearings), []
         start = {"shaft.speed": speed, "solver.tolerance": tolerance}
         try:
             with fmus_of(bearings) as fmus:
                 for node, fmu in fmus.items():
                     self.fmus.append(Bearing(fmu, f"bearing at node {node}", start))
-            self.load = self.carried(loads, speed)
-            loads = self.load.reshape(-1, 2)
+            self.axes = [fmu.axes for fmu in self.fmus]
+            ends = np.cumsum([0, *map(len, self.axes)])
+            self.own = [slice(begin, end) for begin, end in zip(ends, ends[1:])]
+            self.in_space = max(map(len, self.axes)) > 2
+            self.load = self.carried(loads, speed, preloads or {})
+            loads = [self.load[own] for own in self.own]
             positions = [fmu.rest(load) for fmu, load in zip(self.fmus, loads)]
             self.rest_position = np.concatenate(positions)
             self.rest_force = np.concatenate([fmu.force_at(position) for fmu, position in zip(self.fmus, positions)])
-            self.stiffness, self.damping = np.zeros((2, 2 * len(self.fmus), 2 * len(self.fmus)))
-            for i, fmu in enumerate(self.fmus):
-                own = slice(2 * i, 2 * i + 2)
+            self.stiffness, self.damping = np.zeros((2, ends[-1], ends[-1]))
+            for own, fmu in zip(self.own, self.fmus):
                 self.stiffness[own, own], self.damping[own, own] = fmu.linear()
                 fmu.run()
         except BaseException:
@@ -269,24 +286,33 @@ class Coupled:
     def __exit__(self, *_):
         self.close()
 
-    def carried(self, loads, speed):
-        """What the rotor's weight and the loads ask of bearings that hardly yield [N]."""
+    def system(self, speed, acceleration=0.0):
+        return Lateral(self.rotor, speed, acceleration, self.in_space)
+
+    def carried(self, loads, speed, preloads):
+        """What the rotor's weight and the loads ask of bearings that hardly yield, but do when tilted, and the preloads
+        [N]."""
         hold = 1e9
-        system = Lateral(self.rotor, speed)
-        at = system.nodes(self.nodes)
+        system = self.system(speed)
+        held = [axes[:3] for axes in self.axes]
+        at = system.nodes(self.nodes, held)
         system.K[at, at] += hold
         up = np.zeros(system.size)
-        up[1 : 4 * len(self.rotor.nodes) : 4] = 1.0
+        up[[system.at(node)[1] for node in range(len(self.rotor.nodes))]] = 1.0
         weight = -GRAVITY * system.M @ up
         for node, load in loads.items():
-            weight[system.nodes([node])] += load
-        return hold * np.linalg.solve(system.K, weight)[at]
+            weight[system.at(node, ("x", "y", "z")[: len(load)])] += load
+        found = hold * np.linalg.solve(system.K, weight)
+        return np.concatenate([
+            np.pad(found[system.at(node, axes[:3])], (0, len(axes[3:])))
+            + [preloads.get(node, 0.0) if axis == "z" else 0.0 for axis in axes]
+            for node, axes in zip(self.nodes, self.axes)
+        ])
 
     def tell(self, displacement, velocity, acceleration, speed, h):
         """Steps the FMUs; their forces beyond the stand-ins': mean over the step, and at the end."""
         there, mean, end = self.rest_position + displacement, np.empty_like(displacement), np.empty_like(displacement)
-        for i, fmu in enumerate(self.fmus):
-            own = slice(2 * i, 2 * i + 2)
+        for own, fmu in zip(self.own, self.fmus):
             if speed is not None:
                 fmu.write(["shaft.speed"], [speed])
             mean[own], end[own] = fmu.advance(there[own], velocity[own], acceleration[own], h)
@@ -335,8 +361,9 @@ class Propagators:
         self.made = functools.lru_cache(maxsize=256)(self.make)
 
     def make(self, speed, acceleration):
-        system, coupled = Lateral(self.coupled.rotor, speed, acceleration), self.coupled
-        own = np.ix_(system.nodes(coupled.nodes), system.nodes(coupled.nodes))
+        system, coupled = self.coupled.system(speed, acceleration), self.coupled
+        at = system.nodes(coupled.nodes, coupled.axes)
+        own = np.ix_(at, at)
         system.K[own] += coupled.stiffness
         system.C[own] += coupled.damping
         return Propagator(system, self.h, self.columns).matrix
@@ -353,14 +380,15 @@ class Propagators:
 
 def propagated(coupled, forces, speed, h, stop, passes, seen):
     """The run, step by step."""
-    system = Lateral(coupled.rotor, 0.0)
-    node, driven, n = system.nodes(coupled.nodes), system.nodes(forces), system.size
-    over = Propagators(coupled, h, np.concatenate([node, driven]))
-    own, all_columns = len(node), len(node) + len(driven)
+    system = coupled.system(0.0)
     count = round(stop / h)
     half_steps = 0.5 * h * np.arange(2 * count + 1)
     turning = speed.at(half_steps)
-    given = [force(half_steps, *turning) for force in forces.values()]
+    given = [np.asarray(force(half_steps, *turning)) for force in forces.values()]
+    axes = [("x", "y", "z")[: len(force)] for force in given]
+    node, driven, n = system.nodes(coupled.nodes, coupled.axes), system.nodes(forces, axes), system.size
+    over = Propagators(coupled, h, np.concatenate([node, driven]))
+    own, all_columns = len(node), len(node) + len(driven)
     drive = np.concatenate([np.zeros((0, len(half_steps))), *given]).T
     seen = [[name for name in seen if name in fmu.reference] for fmu in coupled.fmus]
     see = lambda: [fmu.read(names) if names else () for fmu, names in zip(coupled.fmus, seen)]  # noqa: E731

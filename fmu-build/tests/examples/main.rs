@@ -39,12 +39,17 @@ const SET_UP: [&str; 6] = [
     "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
 ];
 
-/// The environment of all packages that examples need.
+/// The environment of all packages that examples need; with `BRINELL_NEWEST_ROSS` that of the newest ROSS which pip
+/// finds for this Python, and of what it brings along.
 fn with_all_packages() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
     PYTHON.get_or_init(|| {
-        let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
-        that_builds(Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap())
+        let (name, requirements) = if std::env::var_os("BRINELL_NEWEST_ROSS").is_some() {
+            ("examples-python-newest", "ross-rotordynamics\nfmpy\nmatplotlib\n".to_owned())
+        } else {
+            ("examples-python", fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap())
+        };
+        that_builds(Python::prepare_from(&Project::find(), name, &requirements).unwrap())
     })
 }
 

@@ -17,12 +17,15 @@ from brinell.ross import GRAVITY, Coupled, Speed, element, ross, simulate, unbal
 LENGTH, COUNT, BEARING, DISK = 0.1, 4, 1, 2  # four elements of 0.1 m; the other bearing is at the far end
 folder = Path(sys.argv[2])
 base = SCENES / "er16k-tb1-hosted-shaft.toml"
-healthy, spalled, preloaded = build(
+healthy, spalled, preloaded, towards, away = build(
     [
         changed_scene(base, "healthy", {"defect": None, "contact": None}, folder),
         changed_scene(base, "spalled", {}, folder),
         # Every ball carries at all times: it is as linear as a bearing can be.
         changed_scene(SCENES / "6205-hosted.toml", "preloaded", {"bearing.radial_clearance_um": -4.0}, folder),
+        # A pair back to back, with five degrees of freedom.
+        changed_scene(SCENES / "7205-pair.toml", "towards", {}, folder),
+        changed_scene(SCENES / "7205-pair.toml", "away", {"bearing.contact_angle_deg": -25.0}, folder),
     ],
     folder,
 )
@@ -143,6 +146,44 @@ def runs_up_as_linear(carried):
     return apart
 
 
+def moves_along_and_tilts_in_a_pair():
+    """Gives the differences of its axial rest and of its amplitudes at shaft speed from what the pair's stiffness says."""
+    speed, eccentric, push, preload = 157.08, 1e-5, 20.0, 300.0
+    # Grows within 20 ms and stays.
+    along = lambda t, *_: np.array([0 * t, 0 * t, push * np.clip(t / 0.02, 0.0, 1.0) ** 2])  # noqa: E731
+    forces, bearings, preloads = {3: unbalance(eccentric), 4: along}, {0: towards, 8: away}, {0: preload, 8: -preload}
+    free = slender(ross.BearingElement(n=8, kxx=0.0, cxx=0.0, kzz=0.0, czz=2000.0))
+    with Coupled(free, bearings, {}, speed, 1e-5, preloads) as coupled:
+        assert np.abs(coupled.rest_force[[2, 7]] + [preload, -preload]).max() < 1e-6, coupled.rest_force
+        assert np.abs(coupled.rest_force[[3, 4, 8, 9]]).max() < 1e-6, "a moment at rest"
+        stiffness, system = coupled.stiffness, coupled.system(speed)
+    run = simulate(free, bearings, speed, 0.3, forces=forces, preloads=preloads, passes=2, seen=["shaft.force.z"])
+    late = run.t > 0.3 - 5 * 2 * np.pi / speed
+    z = run.yout[late, run.rotor.number_dof * 4 + 2].mean()
+    # Statics of the pair's 5 x 5 stiffnesses and of the shaft, which yields a tenth as much.
+    at = system.nodes(tuple(bearings), coupled.axes)
+    system.K[np.ix_(at, at)] += stiffness
+    (middle,) = system.at(4, ("z",))
+    expected = push * np.linalg.inv(system.K)[middle, middle]
+    along_apart = abs(z / expected - 1.0)
+    assert along_apart < 1e-3, (z, expected)
+    # What the pair gives along z is against the push.
+    pushes = sum(run.outputs[node]["shaft.force.z"][late].mean() for node in bearings)
+    assert abs(pushes + push) < 0.01 * push, pushes
+    # The answer to an unbalance at shaft speed.
+    drive = np.zeros(system.size, dtype=complex)
+    drive[system.at(3)] = eccentric * speed**2 * np.array([1.0, -1.0j])
+    linear = np.linalg.solve(system.K - speed**2 * system.M + 1j * speed * system.C, drive)
+    shapes = np.column_stack([np.cos(speed * run.t), np.sin(speed * run.t), np.ones_like(run.t)])[late]
+    apart = []
+    for node, name, column in ((3, "x", 0), (3, "y", 1), (0, "tilt.x", 3), (8, "tilt.y", 4)):
+        cos, sin, _ = np.linalg.lstsq(shapes, run.yout[late, run.rotor.number_dof * node + column], rcond=None)[0]
+        apart.append(abs(np.hypot(cos, sin) / np.abs(linear[system.at(node, (name,))[0]]) - 1.0))
+    # 0.03 %: what the stiffness varies as balls pass.
+    assert max(apart) < 2e-3, apart
+    return along_apart, max(apart)
+
+
 def refuses():
     free, node = rotor(), BEARING
     for bearings, words, more in (
@@ -164,4 +205,6 @@ near, far = rests()
 refuses()
 apart, carried = moves_as_linear_at_one_speed()
 run_up = runs_up_as_linear(carried)
-print(f"rests on {near:.3f} N and {far:.3f} N; linear ROSS within {100 * apart:.2g} %, run up {100 * run_up:.2g} %")
+pair = moves_along_and_tilts_in_a_pair()
+print(f"rests on {near:.3f} N and {far:.3f} N; linear ROSS within {100 * apart:.2g} %, run up {100 * run_up:.2g} %; "
+      f"a pair along its axis within {100 * pair[0]:.2g} %, across and tilted {100 * pair[1]:.2g} %")

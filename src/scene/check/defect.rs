@@ -4,10 +4,6 @@ use super::faults::Faults;
 use super::quantity::*;
 use crate::scene::{Bearing, Defect, DefectError, DefectLimit, DefectOn, DefectShape, SceneError};
 
-/// Length of a spall over element diameter: an element that bridges less sinks by 1/8 of it squared over the radius, 2
-/// nm at 8 µm, and a contact grid that shows it would have a hundred times as many cells as usual. Assumed.
-const SHORTEST: f64 = 1e-3;
-
 impl Defect {
     /// `bearing` where that is possible itself.
     pub(super) fn check(&self, bearing: Option<&Bearing>) -> Result<(), SceneError> {
@@ -52,7 +48,7 @@ impl Defect {
         if length_mm >= limit_mm {
             faults.passes(Err(DefectError::SpallTooLong { length_mm, limit_mm, limit }.into()));
         }
-        let limit_mm = shown(SHORTEST * bearing.element_diameter * 1e3);
+        let limit_mm = shown(DefectOn::shortest(bearing) * 1e3);
         if length_mm < limit_mm {
             faults.passes(Err(DefectError::SpallTooShort { length_mm, limit_mm }.into()));
         }
@@ -64,7 +60,7 @@ impl Defect {
         faults.into_result()?;
         let met = self.on.met_length(length, bearing);
         if met <= 0.0 {
-            return Err(DefectError::PitNotMet { length_mm, limit_mm: shown(self.off_track(bearing) * 1e3) }.into());
+            return Err(DefectError::PitNotMet { length_mm, limit_mm: shown(self.on.off_track(bearing) * 1e3) }.into());
         }
         // tan of the right angle is large, not infinite, which is all that is asked of it here.
         let limit_um = shown(0.5 * met * libm::tan(edge_slope).abs() * 1e6);
@@ -84,14 +80,6 @@ impl Defect {
             return Err(DefectError::TiltedProfile { tilt_deg: shown(tilt.to_degrees()) }.into());
         }
         check_profile_name(name)
-    }
-
-    /// Diameter of a pit whose rim the rolling track touches (m).
-    fn off_track(&self, bearing: &Bearing) -> f64 {
-        match self.on {
-            DefectOn::Element { tilt, .. } => 2.0 * bearing.element_radius() * libm::sin(tilt).abs(),
-            _ => 0.0,
-        }
     }
 }
 

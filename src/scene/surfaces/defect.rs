@@ -59,10 +59,16 @@ pub struct DefectLimit {
     pub what: &'static str,
 }
 
+/// Length that the rolling track meets of the shortest spall, over element diameter: an element that bridges less sinks
+/// by 1/8 of it squared over the radius, 2 nm at 8 µm, and a contact grid that shows it would have a hundred times as
+/// many cells as usual. Assumed.
+const SHORTEST: f64 = 1e-3;
 /// Part of the way around its body beyond which a defect of the inner ring or of an element is not local.
 const LONGEST: f64 = 0.9;
 /// Part of an element's radius beyond which a hole in it leaves no half-space.
 const DEEPEST: f64 = 0.2;
+/// What must stay below a limit may come so near to it.
+const BELOW: f64 = 1.0 - 1e-9;
 
 impl Defect {
     /// A defect of the outer raceway whose centre is at `angle` (rad).
@@ -106,15 +112,35 @@ impl DefectOn {
         DefectLimit { size, what }
     }
 
+    /// Length (m) along the rolling track below which no element sinks into a spall.
+    pub fn shortest(bearing: &Bearing) -> f64 {
+        SHORTEST * bearing.element_diameter
+    }
+
+    /// Lengths (m) from and to which a host may change a spall's under every law of contact. Of a whole outer raceway
+    /// those that contacts reach around are too long: nine tenths are taken there as well.
+    pub fn lengths(self, bearing: &Bearing) -> [f64; 2] {
+        let shortest = libm::hypot(Self::shortest(bearing), self.off_track(bearing));
+        [shortest, BELOW * LONGEST * TAU * self.radius(bearing)]
+    }
+
+    /// The largest depth (m) of such a spall.
+    pub fn largest_depth(self, bearing: &Bearing) -> f64 {
+        BELOW * self.deepest(bearing).size
+    }
+
+    /// Diameter (m) of a pit whose rim the rolling track touches, 2 r sin λ.
+    pub fn off_track(self, bearing: &Bearing) -> f64 {
+        match self {
+            Self::Element { tilt, .. } => 2.0 * bearing.element_radius() * libm::sin(tilt).abs(),
+            _ => 0.0,
+        }
+    }
+
     /// Length (m) along the rolling track of a spall of this length: the chord on which the track crosses a round pit
     /// that lies off it, √(d² − 4 r² sin² λ); 0 where it does not.
     pub fn met_length(self, length: f64, bearing: &Bearing) -> f64 {
-        match self {
-            Self::Element { tilt, .. } if tilt != 0.0 => {
-                let across = 2.0 * bearing.element_radius() * libm::sin(tilt);
-                (length * length - across * across).max(0.0).sqrt()
-            }
-            _ => length,
-        }
+        let across = self.off_track(bearing);
+        if across == 0.0 { length } else { (length * length - across * across).max(0.0).sqrt() }
     }
 }

@@ -20,7 +20,7 @@ pub use quantity::{Count, Parameter, Quantity, RingName};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
-pub(in crate::simulation) use suggested_step::suggested_step;
+pub(in crate::simulation) use suggested_step::{Wiring, of_first_order, suggested_step};
 pub(in crate::simulation) use variables::{
     COMPUTED, FIXED, Interface, as_many, not_settable, out_of_range, wrong_type,
 };

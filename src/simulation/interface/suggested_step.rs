@@ -5,21 +5,48 @@
 //! no 1/m. A wiring whose error is of second order (`next_mean_force` held, `mean_force` in sequence, `force` with its
 //! derivative, repeated steps that are given their end) is about 1 % off after 20 ms at ωh = [`SECOND_ORDER`], measured
 //! with a rotor without a damper on a casing that stands, the worst case; dampers and a soft casing let it be three
-//! times that. `force` held is of first order: for 1 % it wants a step a hundred times shorter.
+//! times that. `force` held is of first order: for 1 % it wants ωh = [`FIRST_ORDER`].
+//!
+//! How a host is wired it does not say, but what it reads after its first step shows it: [`Wiring`]. Not seen, and
+//! taken for granted, is that `mean_force` is taken in sequence and `next_mean_force` held. A host that reads `force`
+//! alone is taken for one that holds it: one that interpolates it in sequence could take the longer step.
 //!
 //! The FMU does not know the mass of a ring that the host moves: it takes that of published models, 3.26 kg for a shaft
 //! and
 //! 6.64 kg for a housing. With m times the mass the step is √m times as long.
 
-use crate::dynamics::parameters::Model;
-use crate::dynamics::quasi_static::RingJacobian;
+use super::value_access::{FORCE, SECOND};
+use crate::dynamics::parameters::{COORDINATES, Model};
 use crate::scene::{Motion, Ring};
 
-/// ωh of a wiring of second order.
+/// ωh of a wiring of second order, and of first.
 const SECOND_ORDER: f64 = 0.1;
+const FIRST_ORDER: f64 = 0.001;
+/// Multiplications by the stiffness until its largest eigenvalue stands: a second one that is a tenth smaller leaves
+/// a thousandth, one that is nearer is as good.
+const ROUNDS: usize = 30;
 
-/// The step (s) for the tangent ∂F/∂x of all rings.
-pub(in crate::simulation) fn suggested_step(model: &Model, tangent: &RingJacobian) -> f64 {
+/// What a host has read since its first step. No part of the state: what is taken back was read all the same.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::simulation) struct Wiring {
+    seen: u8,
+}
+
+impl Wiring {
+    /// Notes what has been read, in the classes of `value_access`.
+    #[inline]
+    pub(in crate::simulation) fn note(&mut self, classes: u8) {
+        self.seen |= classes;
+    }
+
+    /// Whether the force of an instant is all that the host goes by.
+    pub(in crate::simulation) fn holds_force(self) -> bool {
+        self.seen & (FORCE | SECOND) == FORCE
+    }
+}
+
+/// The step (s) for the tangent stiffness −∂F/∂x of the inner ring, with a wiring of second order.
+pub(in crate::simulation) fn suggested_step(model: &Model, stiffness: &[[f64; COORDINATES]; COORDINATES]) -> f64 {
     let of_state = model.supports.inverse_masses();
     let usual = [Ring::default_shaft(), Ring::default_housing()].map(|ring| 1.0 / ring.mass);
     let inverse = |ring: usize| match [model.shaft.motion, model.housing.motion][ring] {
@@ -27,10 +54,29 @@ pub(in crate::simulation) fn suggested_step(model: &Model, tangent: &RingJacobia
         Motion::Internal => of_state[2 * ring],
         Motion::Fixed => 0.0,
     };
-    // Of a symmetric matrix, up to what damping leaves.
-    let (xx, yy) = (-tangent[(0, 0)], -tangent[(1, 1)]);
-    let xy = -0.5 * (tangent[(0, 1)] + tangent[(1, 0)]);
-    let stiffest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
     // A bearing that carries nothing pushes nobody.
-    SECOND_ORDER / (stiffest.max(1.0) * (inverse(0) + inverse(1))).sqrt()
+    SECOND_ORDER / (stiffest(stiffness).max(1.0) * (inverse(0) + inverse(1))).sqrt()
+}
+
+/// The step (s) with a force that is held, by that with a wiring of second order.
+pub(in crate::simulation) fn of_first_order(step: f64) -> f64 {
+    FIRST_ORDER / SECOND_ORDER * step
+}
+
+/// The largest eigenvalue of the stiffness (N/m) along x, y and z, which is symmetric up to what damping leaves.
+fn stiffest(stiffness: &[[f64; COORDINATES]; COORDINATES]) -> f64 {
+    // Begun by the axis that is stiffest itself, which no other direction of a positive matrix is orthogonal to.
+    let start = (0..3).max_by(|&i, &j| stiffness[i][i].total_cmp(&stiffness[j][j])).unwrap_or(0);
+    let mut along = [0, 1, 2].map(|axis| if axis == start { 1.0 } else { 0.0 });
+    let mut found = stiffness[start][start];
+    for _ in 0..ROUNDS {
+        let pushed =
+            [0, 1, 2].map(|i| (0..3).map(|j| 0.5 * (stiffness[i][j] + stiffness[j][i]) * along[j]).sum::<f64>());
+        let length = pushed.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(length > 0.0) {
+            break;
+        }
+        (along, found) = (pushed.map(|x| x / length), length);
+    }
+    found
 }

@@ -24,6 +24,10 @@ pub(in crate::simulation) const OUTPUT: u8 = 4;
 pub(in crate::simulation) const STIFFNESS: u8 = 8;
 /// A real output that is computed by a step ahead when it is read.
 pub(in crate::simulation) const AHEAD: u8 = 16;
+/// A force of an instant on a ring.
+pub(in crate::simulation) const FORCE: u8 = 32;
+/// What makes a coupling one of second order: a force over a step, or how the force changes.
+pub(in crate::simulation) const SECOND: u8 = 64;
 /// Any real variable.
 const REAL: u8 = INPUT | PARAMETER | OUTPUT;
 
@@ -43,8 +47,11 @@ impl Access {
             Causality::Input => INPUT,
             Causality::Parameter => PARAMETER,
             Causality::Output | Causality::Local => match quantity {
-                Quantity::Stiffness(..) | Quantity::SuggestedStep => OUTPUT | STIFFNESS,
-                Quantity::NextMeanForce(..) => OUTPUT | AHEAD,
+                Quantity::Stiffness(..) => OUTPUT | STIFFNESS | SECOND,
+                Quantity::SuggestedStep => OUTPUT | STIFFNESS,
+                Quantity::NextMeanForce(..) => OUTPUT | AHEAD | SECOND,
+                Quantity::MeanForce(..) => OUTPUT | SECOND,
+                Quantity::Force(..) => OUTPUT | FORCE,
                 _ => OUTPUT,
             },
         };

@@ -10,7 +10,7 @@ use crate::simulation::Method;
 use crate::simulation::error::{SimulationError, VariableError};
 use crate::simulation::integration::{Progress, StepCounts};
 use crate::simulation::interface::table::{Causality, Dependencies, Variable};
-use crate::simulation::interface::{Change, ElementArray, Interface, Parameter, RingName};
+use crate::simulation::interface::{Change, ElementArray, Interface, Parameter, RingName, Wiring};
 use crate::simulation::recorder::Recorder;
 use crate::simulation::setup::{self, Setup};
 use std::sync::Arc;
@@ -28,6 +28,7 @@ pub struct Simulation {
     pub(in crate::simulation) change: Change,
     pub(super) up_to_date: UpToDate,
     pub(super) ahead: Ahead,
+    pub(super) wiring: Wiring,
 }
 
 /// The last of what has been computed for the values that are set now. Each follows from the one before it.
@@ -88,6 +89,7 @@ impl Simulation {
             present: Present::new(&run.model),
             change: Change::new(run.model.element_count, run.model.sensor_modes.state_len(), in_space),
             ahead: Ahead::default(),
+            wiring: Wiring::default(),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },
             setup,
             interface,
@@ -195,6 +197,7 @@ impl Simulation {
         self.find_equilibrium()?;
         self.run.state.time = start;
         self.run.state.started = true;
+        self.wiring = Wiring::default();
         self.forget_samples();
         Ok(())
     }
@@ -249,6 +252,20 @@ impl Simulation {
             Ok(())
         } else {
             Err(SimulationError::ForeignState)
+        }
+    }
+
+    /// Whether the host holds the force of an instant over a step, as far as what it reads shows.
+    #[inline]
+    pub fn holds_force(&self) -> bool {
+        self.wiring.holds_force()
+    }
+
+    /// Notes how the host is wired once it steps, in classes of `value_access`.
+    #[inline]
+    pub(super) fn note_wiring(&mut self, classes: u8) {
+        if self.run.state.history.step > 0.0 {
+            self.wiring.note(classes);
         }
     }
 

@@ -7,7 +7,7 @@ use super::life::{Simulation, UpToDate};
 use super::state::Ended;
 use crate::dynamics::parameters::force_slot;
 use crate::simulation::error::SimulationError;
-use crate::simulation::interface::{Outputs, Quantity};
+use crate::simulation::interface::{Outputs, Quantity, of_first_order};
 
 impl Simulation {
     /// Evaluates the right-hand side at the communication point, unless it is that of the values set.
@@ -56,6 +56,7 @@ impl Simulation {
                 force[force_slot(ring.index(), axis)]
             }
             Quantity::Stiffness(row, column) => self.present.stiffness[row][column],
+            Quantity::SuggestedStep if self.holds_force() => of_first_order(self.present.suggested_step),
             Quantity::SuggestedStep => self.present.suggested_step,
             other => outputs.value(other).unwrap_or(f64::NAN),
         }

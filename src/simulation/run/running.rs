@@ -151,7 +151,7 @@ pub(in crate::simulation) struct Present {
     pub(in crate::simulation) evaluation: Evaluation,
     /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
     pub(in crate::simulation) stiffness: [[f64; 5]; 5],
-    /// What a host that moves a ring should take for a step (s).
+    /// What a host that moves a ring should take for a step with a wiring of second order (s).
     pub(in crate::simulation) suggested_step: f64,
 }
 
@@ -191,6 +191,7 @@ impl Present {
         let in_space = model.stiffness_in_space(&self.excitation, at, &forces.contacts, &mut forces.shortcuts);
         if let Some(stiffness) = in_space {
             self.stiffness = stiffness;
+            self.suggested_step = suggested_step(model, &self.stiffness);
             return;
         }
         let paths = forces.contacts.paths(model, &progress.state);
@@ -198,7 +199,7 @@ impl Present {
         for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             self.stiffness[row][column] = -jacobian[(row, column)];
         }
-        self.suggested_step = suggested_step(model, &jacobian);
+        self.suggested_step = suggested_step(model, &self.stiffness);
     }
 
     /// The outputs.

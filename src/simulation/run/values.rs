@@ -81,6 +81,7 @@ impl Simulation {
     pub fn reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
         as_many(references.len(), values.len())?;
         let classes = self.interface.classes(references)?;
+        self.note_wiring(classes);
         if classes & value_access::AHEAD != 0 {
             self.look_ahead()?;
         }

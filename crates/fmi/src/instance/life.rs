@@ -14,8 +14,8 @@ use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 
-/// Suggested steps from which on one is warned of: errors beyond some 10 % with whatever wiring.
-const TOO_LONG: f64 = 3.0;
+/// Suggested steps from which on one is warned of: errors beyond some 10 % with a wiring of second order, and of first.
+const TOO_LONG: [f64; 2] = [3.0, 10.0];
 /// Growth of the force from which on the step is looked at again: frequencies grow with its sixth root, by 1.4.
 const HEAVIER: f64 = 8.0;
 
@@ -50,6 +50,8 @@ pub(crate) struct Instance {
     recording: Option<Recording>,
     /// Longest step that has been looked at (s), and the largest force under which it was (N).
     looked_at: [f64; 2],
+    /// Whether the host held forces then.
+    looked_at_held: bool,
     /// Whether it has warned of contacts that a shoulder cuts.
     warned_of_shoulders: bool,
     /// Strings handed out last, which stay valid until strings are read again.
@@ -74,6 +76,7 @@ impl Instance {
             rows: Vec::new(),
             recording: None,
             looked_at: [0.0; 2],
+            looked_at_held: false,
             warned_of_shoulders: false,
             texts: Vec::new(),
         }
@@ -129,8 +132,9 @@ impl Instance {
         #[cfg(feature = "panic-on-demand")]
         self.logger.panic_on_demand();
         let ([longest, heaviest], load) = (self.looked_at, self.simulation.mean_load());
-        if step > 1.1 * longest || load > HEAVIER * heaviest {
-            self.looked_at = [longest.max(step), heaviest.max(load)];
+        let held = self.simulation.holds_force();
+        if step > 1.1 * longest || load > HEAVIER * heaviest || held != self.looked_at_held {
+            (self.looked_at, self.looked_at_held) = ([longest.max(step), heaviest.max(load)], held);
             self.look_at_length(step)?;
         }
         Ok(after)
@@ -141,13 +145,19 @@ impl Instance {
     #[cold]
     fn look_at_length(&mut self, step: f64) -> Result<(), Failure> {
         let Some(suggested) = self.simulation.suggested_step()? else { return Ok(()) };
-        if step > TOO_LONG * suggested {
+        let held = self.looked_at_held;
+        if step > TOO_LONG[usize::from(held)] * suggested {
             self.logger.line(Status::Warning, || {
+                let wiring = if held {
+                    "where force is held, as all that is read suggests, and for a hundred times as much where \
+                     next_mean_force is held, mean_force taken in sequence or derivatives passed on"
+                } else {
+                    "where next_mean_force is held, mean_force taken in sequence or derivatives passed on, and for a \
+                     hundredth of it where force is held; the error grows by the step's square"
+                };
                 format!(
                     "communication step of {step:e} s: the rings on this casing ask for some {suggested:.1e} s \
-                     (solver.suggested_step) where next_mean_force is held, mean_force taken in sequence or \
-                     derivatives passed on, and for a hundredth of it where force is held; the error grows by the \
-                     step's square."
+                     (solver.suggested_step) {wiring}."
                 )
             });
         }

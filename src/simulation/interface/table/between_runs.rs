@@ -58,19 +58,21 @@ impl Builder<'_> {
         let scene = self.scene;
         for (index, defect) in scene.defects.iter().enumerate() {
             let DefectShape::Spall { length, depth, .. } = defect.shape else { continue };
+            let ([shortest, longest], deepest) =
+                (defect.on.lengths(&scene.bearing), defect.on.largest_depth(&scene.bearing));
             self.parameter(
                 &self.of_defect(index, "length"),
                 "Length of the spall along the surface",
                 Q::Parameter(Parameter::SpallLength(index)),
                 Unit::Metre,
-                Limited { start: length, min: 1e-6, max: defect.on.longest(&scene.bearing).size, nominal: 1e-3 },
+                Limited { start: length, min: shortest.min(length), max: longest.max(length), nominal: 1e-3 },
             );
             self.parameter(
                 &self.of_defect(index, "depth"),
                 "Depth of the spall's floor",
                 Q::Parameter(Parameter::SpallDepth(index)),
                 Unit::Metre,
-                Limited { start: depth, min: 1e-9, max: defect.on.deepest(&scene.bearing).size, nominal: 1e-5 },
+                Limited { start: depth, min: depth.min(1e-9), max: deepest.max(depth), nominal: 1e-5 },
             );
         }
     }

@@ -28,8 +28,8 @@ impl Builder<'_> {
             return;
         }
         let kind = Kind::Real { unit: Unit::Second, start: None, min: None, max: None, nominal: 1e-5 };
-        let text = "Communication step for errors of about 1 % with a wiring of second order, if a hosted ring has the \
-                    mass that is usual";
+        let text = "Communication step for errors of about 1 %, if a hosted ring has the mass that is usual; a \
+                    hundredth where the host reads force but no mean force, stiffness or derivative";
         self.push("solver.suggested_step", text, kind, (Causality::Local, Variability::Continuous), Q::SuggestedStep);
         self.push(
             "host.repeated_inputs",

@@ -243,6 +243,7 @@ impl Simulation {
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
     /// outer ring's `acceleration` is the present one (m/s²).
     pub(in crate::simulation) fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
+        self.note_wiring(value_access::SECOND);
         let excitation = self.excitation(false);
         let forces_now = &mut self.present.evaluation.forces;
         let progress = &self.run.state.progress;

@@ -16,6 +16,7 @@
 use crate::dynamics::parameters::Excitation;
 use crate::scene::RepeatedInputs;
 use crate::simulation::Simulation;
+use crate::simulation::interface::value_access::SECOND;
 
 impl Simulation {
     /// Takes what the host has set for a step of `step` (s): as it is, or for the step's end.
@@ -34,6 +35,7 @@ impl Simulation {
             state.first.values.copy_from_slice(&state.reals[..count]);
             return;
         }
+        self.wiring.note(SECOND);
         state.input_rates.fill([None; 2]);
         let (first, end, rates) = (&state.first.values, &mut state.reals, &mut state.input_rates);
         for ring in self.interface.inputs.rings() {

@@ -12,6 +12,7 @@ use super::state::Ended;
 use crate::dynamics::parameters::{Excitation, WholeAngle};
 use crate::simulation::error::SimulationError;
 use crate::simulation::integration::{Advance, Control};
+use crate::simulation::interface::value_access::SECOND;
 
 /// A communication step that has begun.
 #[derive(Debug, Clone)]
@@ -154,6 +155,8 @@ impl Simulation {
     pub fn resume(&mut self, under_way: &mut StepUnderWay, inspection: Inspection) -> Result<(), SimulationError> {
         self.up_to_date = UpToDate::State;
         if self.run.input_values() != inspection.arrived && !under_way.is_done() {
+            // Its rings are moved inside the step.
+            self.note_wiring(SECOND);
             let StepUnderWay { excitation, control, advance } = &*under_way;
             self.run.stepper(excitation, *control, None).finish_part(advance);
             let mut next = self.begin_part(advance.end - advance.tau)?;

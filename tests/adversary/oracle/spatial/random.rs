@@ -1,8 +1,10 @@
 //! Random scenes in space.
 
+use super::bearing::SpatialBearing;
 use super::case::{AxialSetting, Body, Gyroscopic, Host, Spall, SpatialCase, SpatialRing, Step};
 use crate::case::{Damping, Motion};
 use crate::draw::Draw;
+use crate::turning::quadratic;
 use std::f64::consts::{PI, TAU};
 
 /// A scene with three or five degrees of freedom whose balls all have a place: pressed along the axis, or held.
@@ -54,8 +56,18 @@ pub fn random(draw: &mut Draw) -> SpatialCase {
         let angle_deg = draw.between(-180.0, 180.0);
         case.spalls.push(Spall { on, angle_deg, length_mm, depth_um: draw.log(1.0, 200.0) });
     }
-    steps(draw, &mut case);
+    let at = if draw.chance(0.3) { handed_over(&mut case, sense) } else { [0.0; 5] };
+    steps(draw, &mut case, at);
     case
+}
+
+/// Gives the shaft to the host where it would rest, if that is found, and says where.
+fn handed_over(case: &mut SpatialCase, sense: f64) -> [f64; 5] {
+    let Some(rest) = SpatialBearing::new(case).balance(None, [0.0, 0.0, sense * 20e-6, 0.0, 0.0]) else {
+        return [0.0; 5];
+    };
+    case.rings[0] = SpatialRing { motion: Motion::Host, ..SpatialRing::FIXED };
+    std::array::from_fn(|a| rest.state[a])
 }
 
 fn rings(draw: &mut Draw, case: &mut SpatialCase, force: f64, sense: f64) {
@@ -91,17 +103,26 @@ fn rings(draw: &mut Draw, case: &mut SpatialCase, force: f64, sense: f64) {
     }
 }
 
-fn steps(draw: &mut Draw, case: &mut SpatialCase) {
+fn steps(draw: &mut Draw, case: &mut SpatialCase, at: [f64; 5]) {
     let length = draw.log(5e-5, 4e-4);
     let speeds = [TAU * case.speed_hz, TAU * case.housing_hz.unwrap_or(0.0)];
+    // Of what the host moves, place, velocity and acceleration; tilts by a pitch radius.
+    let mut moves = at.map(|place| [place, 0.0, 0.0]);
+    let far = [1.0, 1.0, 1.0, 2e3 / case.pitch_mm, 2e3 / case.pitch_mm].map(|unit| unit * 1e-8 * case.diameter_mm);
     for i in 0..6 {
         let share = if i == 0 { 1.0 } else { draw.between(0.8, 1.2) };
+        let rate = if i == 0 { 0.0 } else { speeds[0] * draw.between(-1.0, 1.0) };
+        let says = i == 0 || draw.chance(0.7);
+        if says && i > 0 {
+            (0..case.freedom).for_each(|a| moves[a][2] = 2.0 * far[a] / length.powi(2) * draw.between(-1.0, 1.0));
+        }
         let rings = case.rings.map(|ring| match ring.motion {
             Motion::Internal => ring.load.map(|load| [load * share, 0.0, 0.0]),
-            _ => [[0.0; 3]; 5],
+            Motion::Host => moves,
+            Motion::Fixed => [[0.0; 3]; 5],
         });
-        let rate = if i == 0 { 0.0 } else { speeds[0] * draw.between(-1.0, 1.0) };
         let host = Host { speeds: [[speeds[0], rate], [speeds[1], 0.0]], rings };
-        case.steps.push(Step { length, host: (i == 0 || draw.chance(0.7)).then_some(host) });
+        case.steps.push(Step { length, host: says.then_some(host) });
+        moves = moves.map(|c| quadratic(c, length));
     }
 }
