@@ -5,16 +5,21 @@ use std::fmt::Write;
 use anyhow::{Context, Result};
 use serde_json::Value;
 
+/// Where the tables of a scene are; its head says what holds without keys.
+const TABLES: &str = include_str!("../../crates/scene-file/src/tables/mod.rs");
+
 /// Every key of a scene file, by table: what it takes, what it means, what holds without it.
 fn scene_page() -> Result<String> {
     let schema = serde_json::to_value(brinell_scene_file::schema())?;
     let mut page = String::from(
         "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the schema \
          that the file is read by,\nso it names every key there is, with the limits beyond which it is refused. Where \
-         the last column is empty,\n[the tables' own page](../../crates/scene-file/src/tables/mod.rs) says what holds \
-         without the key.\n",
+         the last column is empty,\n[the last section](#what-holds-without-a-key) says what holds without the key.\n",
     );
     table(&mut page, &schema, &schema, "")?;
+    page.push_str("\n## What holds without a key\n\n");
+    let said = TABLES.lines().map_while(|line| line.strip_prefix("//!")).skip(2);
+    said.for_each(|line| page.extend([line.strip_prefix(' ').unwrap_or(line), "\n"]));
     Ok(page)
 }
 
@@ -140,6 +145,7 @@ mod tests {
         }
         for part in [
             "## `[sensor.mode]`\n",
+            "## What holds without a key\n\nKeys that may be left out",
             "## `[probe]`\n\nA table without keys.",
             "| `defect` | table; `[[defect]]` for each of several |",
             "| `mode` | table `[[sensor.mode]]`, each as often as wanted |",

@@ -11,6 +11,7 @@ goes wrong is a :class:`BrinellError` with the program's own words; what it rema
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import shutil
@@ -54,6 +55,13 @@ except metadata.PackageNotFoundError:
     __version__ = "0+source"
 
 PathLike = Union[str, "os.PathLike[str]"]
+
+
+def __getattr__(name: str) -> Any:
+    """``brinell.ross`` without an import of its own: what it needs is loaded when it is asked for."""
+    if name == "ross":
+        return importlib.import_module(".ross", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 class BrinellError(RuntimeError):

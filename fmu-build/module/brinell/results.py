@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 Signal = npt.NDArray[np.float64]
+STIFFNESS = ("stiffness.free", "stiffness.held", "stiffness.healthy")
 
 
 def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, str] | None = None) -> str:
@@ -26,6 +27,21 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
     what = "signal" if units is not None else "column"
     head = f"<tr><th>{what}</th>{unit}<th>least</th><th>mean</th><th>greatest</th></tr>"
     return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
+
+
+def _panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) -> Any:
+    """A figure of named columns with their units over one, a panel for each unit."""
+    from matplotlib import pyplot
+
+    units = list(dict.fromkeys(unit for _, unit, _ in columns))
+    figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
+    for unit, axis in zip(units, axes[:, 0]):
+        for name, _, values in (column for column in columns if column[1] == unit):
+            axis.plot(where, values, label=name, linewidth=0.9)
+        axis.set_ylabel(unit)
+        axis.legend(loc="upper right")
+    axes[-1, 0].set_xlabel(along)
+    return figure
 
 
 class Run(Mapping[str, Signal]):
@@ -68,19 +84,9 @@ class Run(Mapping[str, Signal]):
     def plot(self, names: str | Iterable[str] | None = None) -> Any:
         """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
         what the sensors show, or the housing's acceleration."""
-        from matplotlib import pyplot
-
         chosen = [names] if isinstance(names, str) else list(names or ())
         chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
-        units = list(dict.fromkeys(self.units[name] for name in chosen))
-        figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
-        for unit, axis in zip(units, axes[:, 0]):
-            for name in (name for name in chosen if self.units[name] == unit):
-                axis.plot(self["time"], self[name], label=name, linewidth=0.9)
-            axis.set_ylabel(unit)
-            axis.legend(loc="upper right")
-        axes[-1, 0].set_xlabel("time (s)")
-        return figure
+        return _panels("time (s)", self["time"], [(name, self.units[name], self[name]) for name in chosen])
 
 
 class Columns(dict[str, Signal]):
@@ -95,6 +101,16 @@ class Columns(dict[str, Signal]):
 
         frame = pandas.DataFrame(dict(self))
         return frame.set_index(frame.columns[0])
+
+    def plot(self, names: str | Iterable[str] | None = None) -> Any:
+        """Draws columns over the cage angle, a panel for each unit, and gives the ``matplotlib`` figure; without
+        ``names`` the stiffness along the load, with the rings' other coordinate free, held, and without defects.
+        A name is that of a column with or without its unit."""
+        heads = {head.rpartition(" [")[0]: head for head in self}
+        chosen = [names] if isinstance(names, str) else list(names or STIFFNESS)
+        drawn = [heads.get(name, name) for name in chosen]
+        columns = [(head.rpartition(" [")[0], head.rpartition(" [")[2].rstrip("]"), self[head]) for head in drawn]
+        return _panels("cage angle (rad)", next(iter(self.values())), columns)
 
 
 class Answer(dict[str, Any]):

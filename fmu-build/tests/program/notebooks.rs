@@ -264,6 +264,9 @@ table = brinell.stiffness("er16k-tb1-hosted-shaft", load=400)
 assert len({column.size for column in table.values()}) == 1
 modes = brinell.modes("er16k-tb1-hosted-shaft", load=400)
 assert "undamped_frequency_hz" in modes._repr_html_() and "stiffness.free [N/m]" in table._repr_html_()
+(axis,) = table.plot().axes
+assert axis.get_ylabel() == "N/m" and len(axis.lines) == 3, axis
+assert [axis.get_ylabel() for axis in table.plot(["shaft.y", "load.y [N]"]).axes] == ["m", "N"]
 dented = brinell.contact("er16k-tb1", on="outer", angle=7.9, force=500, pressure_limit=6)
 assert isinstance(dented, dict) and dented["found"]["max_pressure_mpa"] <= 6000.1, dented["found"]
 assert "<td>found.max_pressure_mpa</td><td>6000</td>" in dented._repr_html_()
