@@ -154,6 +154,7 @@ mod tests {
         match key {
             "element_count" | "order" => "9",
             "motion" => "\"internal\"",
+            "flank_map" => "true",
             _ => "1.0",
         }
     }

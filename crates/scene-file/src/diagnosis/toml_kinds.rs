@@ -13,6 +13,8 @@ pub(super) enum Kind {
     Number,
     /// A whole number; with `true` none below 0.
     Whole(bool),
+    /// Yes or no.
+    Flag,
     /// Any text.
     Text,
     /// One of these words.
@@ -46,6 +48,7 @@ impl Kind {
         match name.as_str()? {
             "number" => Some(Self::Number),
             "integer" => Some(Self::Whole(part["format"].as_str()?.starts_with('u'))),
+            "boolean" => Some(Self::Flag),
             "string" => Some(Self::Text),
             "object" => Some(Self::Table),
             "array" => {
@@ -64,6 +67,7 @@ impl Kind {
         match self {
             Self::Number => "numbers",
             Self::Whole(_) => "whole numbers",
+            Self::Flag => "answers",
             Self::Text | Self::Word(_) => "texts in quotes",
             Self::Short(..) | Self::List(_) => "lists",
             Self::Table | Self::OneOrMore => "tables",
@@ -91,6 +95,7 @@ impl fmt::Display for Kind {
             Self::Number => f.write_str("a number"),
             Self::Whole(true) => f.write_str("a whole number, 0 or more"),
             Self::Whole(false) => f.write_str("a whole number"),
+            Self::Flag => f.write_str("true or false"),
             Self::Text => f.write_str("a text in quotes"),
             Self::Word(words) => match words.as_slice() {
                 [only] => write!(f, "\"{only}\""),

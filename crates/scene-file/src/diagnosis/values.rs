@@ -51,6 +51,7 @@ fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
         // Seeds have 64 bits.
         Kind::Whole(true) => whole.is_some_and(|number| (0..=i128::from(u64::MAX)).contains(&number)),
         Kind::Whole(false) => whole.is_some_and(|number| i64::try_from(number).is_ok()),
+        Kind::Flag => value.is_bool(),
         Kind::Text => value.is_str(),
         Kind::Word(words) => value.as_str().is_some_and(|word| words.contains(&word)),
         Kind::Short(kind, [least, most]) => {
