@@ -7,7 +7,7 @@ use super::life::{Simulation, UpToDate};
 use super::state::Ended;
 use crate::dynamics::parameters::force_slot;
 use crate::simulation::error::SimulationError;
-use crate::simulation::interface::{Outputs, Quantity, of_first_order};
+use crate::simulation::interface::{Outputs, Quantity, of_first_order, suggested_step};
 
 impl Simulation {
     /// Evaluates the right-hand side at the communication point, unless it is that of the values set.
@@ -46,6 +46,14 @@ impl Simulation {
             && !self.run.model.solves_grids()
     }
 
+    /// The step that a host wired as this one should take (s). Apart, so that other values do not pay for it.
+    #[cold]
+    #[inline(never)]
+    fn step_by_wiring(&self) -> f64 {
+        let step = suggested_step(&self.run.model, &self.present.stiffness);
+        if self.holds_force() { of_first_order(step) } else { step }
+    }
+
     /// Value of a real output.
     #[inline]
     pub(super) fn output(&self, outputs: &Outputs, quantity: Quantity) -> f64 {
@@ -56,8 +64,7 @@ impl Simulation {
                 force[force_slot(ring.index(), axis)]
             }
             Quantity::Stiffness(row, column) => self.present.stiffness[row][column],
-            Quantity::SuggestedStep if self.holds_force() => of_first_order(self.present.suggested_step),
-            Quantity::SuggestedStep => self.present.suggested_step,
+            Quantity::SuggestedStep => self.step_by_wiring(),
             other => outputs.value(other).unwrap_or(f64::NAN),
         }
     }

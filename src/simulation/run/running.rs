@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
 use crate::simulation::integration::{Control, Evaluation, Problem, Progress, Stepper, Workspace};
-use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution, suggested_step};
+use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution};
 use crate::simulation::recorder::{Due, Recorder};
 use crate::simulation::setup;
 use crate::simulation::step_error::StepError;
@@ -151,14 +151,12 @@ pub(in crate::simulation) struct Present {
     pub(in crate::simulation) evaluation: Evaluation,
     /// Tangent stiffness of the inner ring, −∂F/∂x with the elements in static balance (N/m).
     pub(in crate::simulation) stiffness: [[f64; 5]; 5],
-    /// What a host that moves a ring should take for a step with a wiring of second order (s).
-    pub(in crate::simulation) suggested_step: f64,
 }
 
 impl Present {
     pub(in crate::simulation) fn new(model: &Model) -> Self {
         let (excitation, evaluation) = (Excitation::default(), Evaluation::new(model));
-        Self { excitation, evaluation, stiffness: [[0.0; 5]; 5], suggested_step: 0.0 }
+        Self { excitation, evaluation, stiffness: [[0.0; 5]; 5] }
     }
 
     /// Evaluates the right-hand side under `excitation`. It must not depend on what was computed before, or a restored
@@ -191,7 +189,6 @@ impl Present {
         let in_space = model.stiffness_in_space(&self.excitation, at, &forces.contacts, &mut forces.shortcuts);
         if let Some(stiffness) = in_space {
             self.stiffness = stiffness;
-            self.suggested_step = suggested_step(model, &self.stiffness);
             return;
         }
         let paths = forces.contacts.paths(model, &progress.state);
@@ -199,7 +196,6 @@ impl Present {
         for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             self.stiffness[row][column] = -jacobian[(row, column)];
         }
-        self.suggested_step = suggested_step(model, &self.stiffness);
     }
 
     /// The outputs.
