@@ -6,12 +6,12 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::common;
-
 /// Standard output and standard error.
 fn said(words: &[&str]) -> (String, String) {
     let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    let output = program.current_dir(common::folder("manners")).args(words).output().unwrap();
+    // A folder for each: tests that run beside each other would take one away from under the other.
+    let folder = tempfile::tempdir().unwrap();
+    let output = program.current_dir(&folder).args(words).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (text(output.stdout), text(output.stderr))
 }
