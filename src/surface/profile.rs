@@ -5,7 +5,8 @@
 
 use super::{Interval, SurfaceError};
 
-/// An arc (m) as a multiple of a picometre's nearest power of two: what differs in its last bits gives the same.
+/// An arc (m) as a multiple of 2⁻⁴⁰ m, about a picometre, so that a body turned by any angle, and flanks any distance
+/// apart, have the same profile to the bit.
 pub(crate) fn rounded(arc: f64) -> f64 {
     const FINEST: f64 = 1.099511627776e12;
     (arc * FINEST).round() / FINEST

@@ -300,7 +300,7 @@ SECTION = f"""<h2>Across the grooves</h2>
 <div class="moving"><canvas id="section-ball"></canvas><div class="beside"><canvas id="section-angles"></canvas>
 <table><tr><th>groove</th><th>contact angle</th><th>force (N)</th><th>half of the ellipse across</th>
 <th>to the shoulder</th></tr>{ROWS}</table></div></div>
-<p>To scale but for the arrows; vermilion: the ellipse along the groove and the forces on the rings. Below it the centres
+<p>To scale except the arrows; vermilion: the ellipse along the groove and the forces on the rings. Below it the centres
 of grooves and ball, enlarged. Beside it, over the angle around the bearing, where the contacts of all balls are now and,
 light, in the whole run. Grooves are drawn smooth; how wide rings are is not in the scene.</p>
 """

@@ -73,7 +73,7 @@ const Section = (() => {
     if (known) for (const corner of [first, last]) dot(c, corner, EDGE, 2.5);
   }
 
-  // Ball j between its grooves, to scale but for the arrows; below, the centres of grooves and ball enlarged.
+  // Ball j between its grooves, to scale except the arrows; below, the centres of grooves and ball enlarged.
   function drawSection(m, j, f) {
     const { c, width, height } = surface(document.getElementById("section-ball"));
     const seen = places(m, j, f), inset = 130, high = height - inset, r = m.radius;

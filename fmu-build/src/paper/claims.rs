@@ -190,7 +190,7 @@ pub(super) fn epps(case: &Case, found: &[Epps]) -> Result<Vec<Claim>> {
         ),
         Claim::shown(
             "Acceleration, path and force over the spall",
-            "curves; the sensor and the housing behind them are not told",
+            "curves; the sensor and the housing behind them are not given",
             "the same signals in paper-fig5.csv, under both laws".to_owned(),
         ),
     ])

@@ -53,13 +53,11 @@ pub fn scene_text(path: &Path) -> Result<String> {
         if path.extension().is_none() {
             bail!("{name}: neither a file nor a shipped scene; {}", meant(name));
         }
-        if let Some(scene) = name.strip_suffix(".toml") {
-            bail!("{name}: no such file; {}", missing(scene));
-        }
     }
     if !path.exists()
         && let Some(scene) = path.file_stem().and_then(|stem| stem.to_str())
-        && text(&format!("{scene}.toml")).is_some()
+        // Of a file in another folder nothing is guessed.
+        && (bare(path).is_some_and(|name| name.ends_with(".toml")) || text(&format!("{scene}.toml")).is_some())
     {
         bail!("{}: no such file; {}", path.display(), missing(scene));
     }

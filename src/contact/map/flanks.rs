@@ -10,7 +10,7 @@ use crate::surface::Surface;
 
 /// Cells become a little longer than asked for so that edges lie on their borders; never so much.
 const LONGER_CELLS: f64 = 1.1;
-/// Floors have lengths of so many times two metres, so that what rounds differently gives the same.
+/// Half the floor is a multiple of this (m), so that what rounds differently gives the same.
 const FLOOR: f64 = 1e-5;
 
 /// A surface whose floor is as short as its flanks allow.

@@ -12,8 +12,7 @@
 //! alone is taken for one that holds it: one that interpolates it in sequence could take the longer step.
 //!
 //! The FMU does not know the mass of a ring that the host moves: it takes that of published models, 3.26 kg for a shaft
-//! and
-//! 6.64 kg for a housing. With m times the mass the step is √m times as long.
+//! and 6.64 kg for a housing. With m times the mass the step is √m times as long.
 
 use super::value_access::{FORCE, SECOND};
 use crate::dynamics::parameters::{COORDINATES, Model};
