@@ -2,10 +2,9 @@
 //!
 //! For the build script, which tells it to the program, and for tests.
 
-use std::fs;
 use std::hash::{DefaultHasher, Hasher};
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// All in the workspace on which the bits of a map depend: the layers below and up to `contact`, and versions of other
 /// people's crates. What `scene` has to do with a map are numbers, which are in the fingerprint of its inputs.

@@ -9,14 +9,12 @@
 mod common;
 
 use std::collections::BTreeMap;
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use brinell::simulation::interface::table::{Causality, Kind};
-use fmu_build::package::Model;
-use fmu_build::package::{Choice, Library};
+use fmu_build::package::{Choice, Library, Model};
 use fmu_build::shared::Project;
 use host::Instance;
 

@@ -5,10 +5,9 @@
 
 mod common;
 
-use std::env;
 use std::f64::consts::TAU;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use brinell::simulation::Simulation;
 

@@ -13,8 +13,7 @@ use std::sync::OnceLock;
 
 use fmu_build::package::{Binary, Choice, Library, fmu};
 use fmu_build::platforms::{OLDEST_GLIBC, needed_glibc};
-use fmu_build::shared::Project;
-use fmu_build::shared::Version;
+use fmu_build::shared::{Project, Version};
 use object::{LittleEndian, Object, macho};
 
 /// How many functions of each version there are: those of co-simulation, and those that only refuse.

@@ -16,8 +16,7 @@ use std::process::Command;
 
 use fmu_build::package::{Choice, Library};
 use fmu_build::platforms::Platform;
-use fmu_build::shared::Project;
-use fmu_build::shared::Version;
+use fmu_build::shared::{Project, Version};
 
 /// numpy 2 asks for functions of the C library that Wine 8 lacks.
 const NUMPY: &str = "numpy==1.26.4";

@@ -26,9 +26,8 @@ mod waviness;
 
 pub use error::SurfaceError;
 pub use interval::Interval;
-pub(crate) use profile::Corner;
 pub use profile::Profile;
-pub(crate) use profile::rounded;
+pub(crate) use profile::{Corner, rounded};
 pub use roller_profile::with_roller_profile;
 pub use topography::Topography;
 pub use waviness::Waves;

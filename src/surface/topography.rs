@@ -9,9 +9,8 @@
 //! The arc is counted from the middle of its range, which is put at the defect's angle. The axial coordinate is taken
 //! as given: 0 is the groove's bottom. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
 
-use super::csv;
 use super::trace::{ARC, DEPTH};
-use super::{Interval, Profile, SurfaceError};
+use super::{Interval, Profile, SurfaceError, csv};
 
 /// Column of the axial coordinate; its presence tells a topography from a trace.
 pub(super) const AXIAL: &str = "axial_mm";

@@ -3,8 +3,7 @@
 //! Depths are taken as they are, positive into the ring: level the trace and set its smooth ends to 0 before. The
 //! middle of the arc's range is put at the defect's angle, whatever the origin of the measurement.
 
-use super::csv;
-use super::{Profile, SurfaceError};
+use super::{Profile, SurfaceError, csv};
 
 /// Column of the arc.
 pub(super) const ARC: &str = "arc_mm";

@@ -5,9 +5,7 @@ use crate::scenes::{BALLS, Kind, loaded, without_inertia};
 use crate::support::{Named, shipped};
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Motion, Scene};
-use brinell::simulation::Method;
-use brinell::simulation::Simulation;
-use brinell::simulation::SimulationError;
+use brinell::simulation::{Method, Simulation, SimulationError};
 use std::f64::consts::FRAC_PI_2;
 
 /// A run that must not go on.

@@ -2,9 +2,8 @@
 
 use crate::two::{Call, Host, Log, Resources, logger};
 use brinell_fmi::fmi2::*;
-use std::fs;
-use std::ptr;
 use std::sync::Arc;
+use std::{fs, ptr};
 
 /// Resources as `brinell build --kind both` packs them.
 fn resources(scene: &str) -> Arc<Resources> {

@@ -5,8 +5,7 @@ use crate::support::Named;
 use crate::support::defects::{held, spall};
 use brinell::contact::map::{ContactMaps, Sequential};
 use brinell::scene::{ContactLaw, Defect, DefectOn, DefectShape, Scene};
-use brinell::simulation::Simulation;
-use brinell::simulation::setup;
+use brinell::simulation::{Simulation, setup};
 use brinell::surface::Surface;
 use std::f64::consts::{FRAC_PI_2, PI};
 

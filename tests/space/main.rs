@@ -4,6 +4,7 @@
 
 mod arrangements;
 mod balance;
+mod coupling;
 mod defects;
 mod derivatives;
 mod laws;

@@ -8,8 +8,7 @@ use brinell::contact::rolling::Rolling;
 use brinell::surface::Surface;
 
 use crate::package::{Choice, Library, Model, fmu};
-use crate::shared::Version;
-use crate::shared::{Project, Python, csv, whole_file};
+use crate::shared::{Project, Python, Version, csv, whole_file};
 
 /// A shipped scene.
 const SCENE: &str = "6205-epps";

@@ -6,8 +6,7 @@ use anyhow::{Context, Result, bail};
 use serde_json::json;
 
 use super::schema;
-use crate::shared::shipped;
-use crate::shared::whole_file;
+use crate::shared::{shipped, whole_file};
 
 /// The command: one line for each shipped scene; of those named, the files are written into `folder` instead.
 pub fn command(names: &[String], json: bool, folder: &Path) -> Result<()> {

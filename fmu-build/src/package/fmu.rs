@@ -10,8 +10,7 @@ use super::documentation;
 use super::library::Library;
 use super::model::Model;
 use crate::package::description::{model_description, terminals};
-use crate::shared::whole_file;
-use crate::shared::{Interface, Version};
+use crate::shared::{Interface, Version, whole_file};
 
 const ICON: &[u8] = include_bytes!("../../assets/model.png");
 const LICENSE: &str = "Brinell is licensed under either of\n\n\

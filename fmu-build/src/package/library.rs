@@ -1,10 +1,9 @@
 //! The compiled library, the same for every scene: one that the user names, those inside this program, or compiled from
 //! source.
 
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
 

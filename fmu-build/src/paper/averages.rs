@@ -4,8 +4,7 @@
 use anyhow::Result;
 use brinell::scene::{ContactLaw, DefectShape};
 use brinell_analysis::sizing::passages::fold;
-use brinell_analysis::sizing::waveform::{Rig, Trial, synthesis};
-use brinell_analysis::sizing::waveform::{Ringing, ringing};
+use brinell_analysis::sizing::waveform::{Rig, Ringing, Trial, ringing, synthesis};
 use brinell_analysis::statics::StaticBearing;
 
 use super::Case;

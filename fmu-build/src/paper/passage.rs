@@ -4,8 +4,7 @@ use anyhow::{Context, Result};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
 use brinell::surface::Surface;
-use brinell_analysis::sizing::waveform::ringing;
-use brinell_analysis::sizing::waveform::synthesis;
+use brinell_analysis::sizing::waveform::{ringing, synthesis};
 
 use super::Case;
 use crate::shared::Project;

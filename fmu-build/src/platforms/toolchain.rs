@@ -2,11 +2,10 @@
 //!
 //! Paths of the machine are left out of what is compiled, so that equal source and equal tools give equal bytes.
 
-use std::env;
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
 

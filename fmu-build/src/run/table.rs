@@ -15,8 +15,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::signals::Signals;
-use crate::shared::csv;
-use crate::shared::whole_file;
+use crate::shared::{csv, whole_file};
 
 /// Rows in a group: what is kept in memory while a file is written.
 pub(crate) const GROUP: usize = 1 << 15;

@@ -1,13 +1,12 @@
 //! Contact maps: computed on several threads with a progress bar, kept in the cache by the fingerprints of their inputs
 //! and of the code that computes them.
 
-use std::fs;
 use std::path::PathBuf;
-use std::thread;
+use std::{fs, thread};
 
 use anyhow::Result;
 use brinell::contact::error::ContactError;
-use brinell::contact::map::{ContactMap, ContactMaps, Runner};
+use brinell::contact::map::{ContactMap, ContactMaps, REFUSED, Runner};
 use brinell::contact::rolling::RacewaySide;
 use brinell::scene::{ContactLaw, Scene};
 use brinell::simulation::setup::{self, NeededMap};
@@ -52,7 +51,7 @@ pub(crate) fn one(scene: &Scene, needed: &NeededMap, project: &Project, threads:
     let map = needed.build(&mut cores)?;
     cores.bar.finish_and_clear();
     let (reached, wanted) = (map.accuracy().max(), setup::map_specification(scene, RacewaySide::Outer).accuracy);
-    if reached > 1.5 * wanted {
+    if reached > REFUSED * wanted {
         note!(
             "contact map of {}: error up to {reached:.1e} of the largest force, {wanted:.0e} was wanted; more cells \
              (contact.cells) may help, and a scene that gives contact.map_accuracy refuses such a map",

@@ -3,14 +3,12 @@
 
 use brinell::scene::model_file;
 use std::collections::BTreeMap;
-use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
+use std::{env, fs};
 
 use fmu_build::package::{Choice, Library, Model, fmu};
-use fmu_build::shared::Version;
-use fmu_build::shared::{Project, Python};
+use fmu_build::shared::{Project, Python, Version};
 
 /// Root of the workspace.
 pub(crate) fn root() -> &'static Path {

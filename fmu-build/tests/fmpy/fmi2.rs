@@ -11,8 +11,7 @@ use fmu_build::commands::check;
 use fmu_build::package::Model;
 use fmu_build::run;
 use fmu_build::run::table::Format;
-use fmu_build::shared::Version;
-use fmu_build::shared::{Grid, Project};
+use fmu_build::shared::{Grid, Project, Version};
 
 fn all_fmus(folder: &Path) -> Vec<PathBuf> {
     let names = common::scenes().into_iter().map(|path| path.file_stem().unwrap().to_owned());

@@ -10,12 +10,11 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
-use std::env;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
+use std::{env, fs};
 
 use fmu_build::shared::{Project, Python};
 

@@ -3,10 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
-use std::env;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::{env, fs};
 
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 const FLAGS: [&str; 10] = [

@@ -3,10 +3,9 @@
 
 use crate::common;
 use std::collections::HashMap;
-use std::env;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::{env, fs};
 
 /// Scenes that the schema refuses as [`brinell_scene_file::from_toml`] does: what is replaced in a scene, and by what.
 const BAD: [(&str, &str); 14] = [

@@ -14,8 +14,7 @@
 //! contact with its stiffness, and knows derivatives too.
 
 use super::elasticity::{Elastic, Elasticity, Line, Point};
-use crate::numerics::number::Number;
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Number, Scalar};
 use crate::scene::Damping;
 
 /// Turns the dimensionless factor of Hunt and Crossley's damping into a length of an approach's magnitude (m).

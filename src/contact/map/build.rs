@@ -14,7 +14,7 @@ use crate::contact::rolling::RacewaySide;
 
 /// The map follows the grid, and the grid's own steps may be larger than the accuracy: a map is refused when its error
 /// is so many times what was asked for, unless the specification tolerates more.
-const REFUSED: f64 = 1.5;
+pub const REFUSED: f64 = 1.5;
 
 impl ContactMap {
     /// Map for an element over `surface`.

@@ -12,6 +12,7 @@ mod plan;
 mod second_derivatives;
 mod specification;
 
+pub use build::REFUSED;
 pub use contact_maps::ContactMaps;
 pub use flanks::Flanks;
 pub use format::{HEAD, TAIL};

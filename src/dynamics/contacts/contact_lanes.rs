@@ -8,8 +8,7 @@
 use super::directions::{dot, radial};
 use super::kernel::InnerGap;
 use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
-use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Space, Stage};
+use crate::dynamics::parameters::{ElementBlock, FilmsNow, Kinematics, Model, Space, Stage};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, blocks, blocks_mut, handed_on, sum_of};
 use crate::numerics::plane::{Vector, turned};
@@ -177,10 +176,10 @@ impl Record {
 
 impl Model {
     /// Smooth contacts of all elements: their part of the derivative, and, if `RECORD`, each of them. Gives their force
-    /// on the inner ring and on the outer. If `UNEVEN_OR_OILED`, each element has a speed and a size of its own and
+    /// on the inner ring and on the outer. If `GENERAL`, each element has a speed and a size of its own and
     /// contacts may have films.
     #[inline(always)]
-    pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
+    pub(in crate::dynamics) fn smooth_contacts<S: Wide, const RECORD: bool, const GENERAL: bool>(
         &self,
         simd: S,
         now: &Kinematics,
@@ -191,7 +190,7 @@ impl Model {
     ) -> [f64; 4] {
         // A function of its own, so that nothing of it is in the way of balls.
         if let Some(line) = self.inner.contact.law.elasticity.line() {
-            return simd.outlined(Rollers::<RECORD, UNEVEN_OR_OILED> {
+            return simd.outlined(Rollers::<RECORD, GENERAL> {
                 model: self,
                 line,
                 now: &handed_on(now),
@@ -202,19 +201,12 @@ impl Model {
                 contacts,
             });
         }
-        self.contacts_of::<S, Point, RECORD, UNEVEN_OR_OILED>(
-            simd,
-            Point,
-            now,
-            stage,
-            derivative,
-            (elements, films, contacts),
-        )
+        self.contacts_of::<S, Point, RECORD, GENERAL>(simd, Point, now, stage, derivative, (elements, films, contacts))
     }
 
     /// As [`smooth_contacts`](Self::smooth_contacts), for contacts of one elasticity.
     #[inline(always)]
-    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const UNEVEN_OR_OILED: bool>(
+    fn contacts_of<S: Wide, E: Elastic, const RECORD: bool, const GENERAL: bool>(
         &self,
         simd: S,
         elastic: E,
@@ -227,11 +219,11 @@ impl Model {
         let (offset, v, omega) = (now.offset(), now.housing.velocity, now.cage.speed);
         let series = self.nearly_concentric(offset);
         // Of elements with speeds of their own the second part is theirs.
-        let omega = if UNEVEN_OR_OILED { 0.0 } else { omega };
+        let omega = if GENERAL { 0.0 } else { omega };
         let body = Vector::new(self.gravity.x + omega * v.y, self.gravity.y - omega * v.x);
         let drift = now.drift();
-        let clearance = if UNEVEN_OR_OILED { self.clearance(films) } else { self.radial_clearance };
-        let films = if UNEVEN_OR_OILED { films.map(|films| films.squeeze) } else { None };
+        let clearance = if GENERAL { self.clearance(films) } else { self.radial_clearance };
+        let films = if GENERAL { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
         let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::new(simd);
@@ -246,7 +238,7 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts::<S, UNEVEN_OR_OILED>(simd, of(&state[k]), of(&state[w]), block, of);
+                let found = smooth.contacts::<S, GENERAL>(simd, of(&state[k]), of(&state[w]), block, of);
                 sums.add(part, &found.forces);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
@@ -283,7 +275,7 @@ impl<S: Wide> Found<S> {
 impl<E: Elastic> Smooth<'_, E> {
     /// Of elements at the paths `u` (m) and absolute radial velocities `w` (m/s).
     #[inline(always)]
-    fn contacts<S: Wide, const UNEVEN_OR_OILED: bool>(
+    fn contacts<S: Wide, const GENERAL: bool>(
         &self,
         simd: S,
         u: Lanes<S>,
@@ -298,7 +290,7 @@ impl<E: Elastic> Smooth<'_, E> {
         let u = self.ahead.map_or(u, |ahead| u + Lanes::splat(simd, ahead) * path_rate);
         let number = |number: f64| Lanes::splat(simd, number);
         let (mut radius, mut clearance) = (number(model.outer_centre_radius), number(self.clearance));
-        if UNEVEN_OR_OILED {
+        if GENERAL {
             let larger = of(&block.larger);
             (radius, clearance) = (radius - number(0.5) * larger, clearance - larger);
         }
@@ -307,21 +299,21 @@ impl<E: Elastic> Smooth<'_, E> {
         let gap = InnerGap::of(rho, u, offset, clearance, self.series);
         let (delta, [n_r, n_t]) = (gap.approach, gap.n);
         let pace = number(now.cage.speed);
-        let speed = if UNEVEN_OR_OILED { of(&block.pace) * pace } else { pace };
+        let speed = if GENERAL { of(&block.pace) * pace } else { pace };
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let closing = gap.closing([dot(simd, self.drift, e_r) + path_rate, along]);
 
         let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
         let mut inner = law.force(of(&block.inner), delta, closing);
         let mut outer = law.force(of(&block.outer), u, path_rate);
-        if UNEVEN_OR_OILED && let Some([inside, outside]) = &self.films {
+        if GENERAL && let Some([inside, outside]) = &self.films {
             // Constants of contacts are far above 1, or 0 for what is no smooth contact.
             let [on_inner, on_outer] = [&block.inner, &block.outer].map(|constant| of(constant).at_most(number(1.0)));
             inner = inner + on_inner * inside.to(number).force(delta, closing);
             outer = outer + on_outer * outside.to(number).force(u, path_rate);
         }
         let mut turning = rho * (speed * speed);
-        if UNEVEN_OR_OILED {
+        if GENERAL {
             turning = turning + speed * dot(simd, -turned(now.housing.velocity), e_r);
         }
         let acceleration = (inner * n_r - outer) * of(&block.per_mass)
@@ -347,7 +339,7 @@ impl<E: Elastic> Smooth<'_, E> {
 }
 
 /// The smooth contacts of rollers.
-struct Rollers<'a, const RECORD: bool, const UNEVEN_OR_OILED: bool> {
+struct Rollers<'a, const RECORD: bool, const GENERAL: bool> {
     model: &'a Model,
     line: Line<'a>,
     now: &'a Kinematics,
@@ -358,19 +350,12 @@ struct Rollers<'a, const RECORD: bool, const UNEVEN_OR_OILED: bool> {
     contacts: &'a mut Record,
 }
 
-impl<const RECORD: bool, const UNEVEN_OR_OILED: bool> Kernel for Rollers<'_, RECORD, UNEVEN_OR_OILED> {
+impl<const RECORD: bool, const GENERAL: bool> Kernel for Rollers<'_, RECORD, GENERAL> {
     type Output = [f64; 4];
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) -> [f64; 4] {
         let Self { model, line, now, stage, derivative, elements, films, contacts } = self;
-        model.contacts_of::<S, Line, RECORD, UNEVEN_OR_OILED>(
-            simd,
-            line,
-            now,
-            stage,
-            derivative,
-            (elements, films, contacts),
-        )
+        model.contacts_of::<S, Line, RECORD, GENERAL>(simd, line, now, stage, derivative, (elements, films, contacts))
     }
 }

@@ -3,8 +3,7 @@
 use super::contact_lanes::Record;
 use super::shortcuts::Shortcuts;
 use crate::contact::error::ContactError;
-use crate::dynamics::parameters::FilmsNow;
-use crate::dynamics::parameters::{Cells, Defects, ElementBlock, Frame, Frames, Lead, Model, SMOOTH};
+use crate::dynamics::parameters::{Cells, Defects, ElementBlock, FilmsNow, Frame, Frames, Lead, Model, SMOOTH};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Each, Lanes, Lists, QUAD, WIDEST, Wide, largest_of, padded};
 use crate::numerics::plane::Vector;

@@ -15,8 +15,7 @@ use crate::contact::law::{CompliantContact, SqueezeFilm};
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Defects, Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
-use crate::numerics::number::Number;
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Number, Scalar};
 
 /// An element seen from the inner ring's centre.
 #[derive(Debug, Clone, Copy)]

@@ -20,8 +20,7 @@ use super::element_motion::{ElementMotion, ElementVariation};
 use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
 use crate::dynamics::parameters::{Frame, FramedKinematics, Frames, Model, PathMotion, SMOOTH, Turn};
-use crate::numerics::number::Dual;
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::{Matrix, Vector};
 
 /// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle and speed of the frame, film speed.

@@ -15,8 +15,7 @@
 
 use super::fastest::{BodyIndices, Fastest};
 use super::spatial_jacobian::SpatialJacobian;
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized, Shortcuts};
 use crate::dynamics::parameters::{
     BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, PathMotion, RingState,
     prescribed_rate,

@@ -9,8 +9,7 @@
 //! onset of a contact there are two.
 
 use super::change::{Changing, ForceChange, Going, Variation, changing};
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion};
+use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, FramedKinematics, Frames, Model, PathMotion, Turn};
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::{Matrix, Vector};

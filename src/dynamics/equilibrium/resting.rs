@@ -1,8 +1,7 @@
 //! Where an element rests on a raceway that it touches without force.
 
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Meeting;
-use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::contacts::{Meeting, Shortcuts};
 use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH, WholeAngle};
 
 impl Model {

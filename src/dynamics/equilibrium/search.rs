@@ -3,10 +3,9 @@
 //! Rings are at rest or move as prescribed, elements keep their distance from the outer ring (u' = 0) and go round with
 //! the cage: they feel gravity, the centrifugal force and the contacts' damping at those rates, so that no acceleration
 //! is left at the start. Each element's radial balance is solved inside (its force falls monotonically with u), then
-//! the internal rings' by Newton's method on the elastic tangent, after many
-//! steps on that of the damped contacts, with a shift that keeps a loose ring's step bounded, and a search along the
-//! step for the point at which the residual no longer pushes forward: in a convex potential that is the minimum along
-//! the line.
+//! the internal rings' by Newton's method on the elastic tangent, after many steps on that of the damped contacts, with
+//! a shift that keeps a loose ring's step bounded, and a search along the step for the point at which the residual no
+//! longer pushes forward: in a convex potential that is the minimum along the line.
 //!
 //! An element that nothing pushes rests against the outer raceway without force.
 //!

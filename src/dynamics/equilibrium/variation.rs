@@ -7,8 +7,7 @@
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementVariation, Linearized, Shortcuts};
 use crate::dynamics::derivatives::{Going, Variation};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
 use crate::dynamics::quasi_static::{RingJacobian, Rings};

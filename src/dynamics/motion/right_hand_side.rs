@@ -12,8 +12,9 @@
 //! F_r and F_t are what the outer raceway exerts on the element, inwards and counter-clockwise; on the smooth raceway
 //! F_r = Q(u, u') and F_t = 0. Near a defect of the inner raceway, or of the element on its inner side, Q_i n gives way
 //! to Q (R n + T t), with the direction (R, T) of that contact and t = ẑ×n. As w is the element's *absolute* radial
-//! velocity, no ring acceleration enters. The cage is kinematic: it takes up every tangential force on the elements.
-//! What it takes is the cage torque.
+//! velocity, no ring acceleration enters, and ω (v_o·e_t + ρ ω) is all that turning adds: ω² ρ is the centrifugal
+//! acceleration. The cage is kinematic: it takes up every tangential force on the elements, Coriolis' too. What it
+//! takes is the cage torque.
 
 use crate::dynamics::contacts::{Forces, NonSmoothOuter};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, Model, Stage};
@@ -48,7 +49,7 @@ impl Model {
     ) {
         let model = self;
         // Each written out: one that is made elsewhere and moved here is written in parts and read at once.
-        match (self.is_uneven_or_oiled(), stage.ahead.is_some() && !RECORD) {
+        match (self.needs_general_form(), stage.ahead.is_some() && !RECORD) {
             (false, false) => {
                 simd.outlined(Evaluation::<RECORD, false, false> { model, stage, derivative, forces });
             }
@@ -106,18 +107,16 @@ impl Kernel for Derivative<'_> {
 }
 
 /// The right-hand side as it is compiled, each kind without the others' work: if `AHEAD`, with positions that are still
-/// to be moved on; if `UNEVEN_OR_OILED`, in an uneven cage, with oil films, of elements in
+/// to be moved on; if `GENERAL`, in an uneven cage, with oil films, of elements in
 /// balance or in space.
-struct Evaluation<'a, const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> {
+struct Evaluation<'a, const RECORD: bool, const AHEAD: bool, const GENERAL: bool> {
     model: &'a Model,
     stage: Stage<'a>,
     derivative: &'a mut [f64],
     forces: &'a mut Forces,
 }
 
-impl<const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> Kernel
-    for Evaluation<'_, RECORD, AHEAD, UNEVEN_OR_OILED>
-{
+impl<const RECORD: bool, const AHEAD: bool, const GENERAL: bool> Kernel for Evaluation<'_, RECORD, AHEAD, GENERAL> {
     type Output = ();
 
     #[inline(always)]
@@ -126,7 +125,7 @@ impl<const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> Kernel
         let ahead = if AHEAD { Some(stage.ahead.unwrap_or(0.0)) } else { None };
         let stage = Stage { ahead, ..stage };
         let Stage { excitation, cage, state, .. } = stage;
-        if UNEVEN_OR_OILED {
+        if GENERAL {
             if let Some(space) = &model.space {
                 return model.spatial_derivative::<S, RECORD>(simd, space, &stage, derivative, forces);
             }
@@ -157,7 +156,7 @@ impl<const RECORD: bool, const AHEAD: bool, const UNEVEN_OR_OILED: bool> Kernel
                 on_shaft = model.non_smooth_inner_contacts::<RECORD>(&handed_on(&now), state, ahead, forces);
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = model.smooth_contacts::<S, RECORD, UNEVEN_OR_OILED>(
+        let [shaft_x, shaft_y, housing_x, housing_y] = model.smooth_contacts::<S, RECORD, GENERAL>(
             simd,
             &now,
             &stage,

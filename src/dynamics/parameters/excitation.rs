@@ -174,6 +174,24 @@ impl Excitation {
         Self { cage_start: cage_angle, frames, ..Self::default() }
     }
 
+    /// Prescribed coordinate of the inner ring (0) or the outer (1): x, y, z (m), and tilts about x and y (rad).
+    #[inline]
+    pub fn motion(&self, ring: usize, axis: usize) -> &Cubic {
+        match axis {
+            0 | 1 => &[&self.shaft, &self.housing][ring][axis],
+            _ => &self.beyond[ring].motion[axis - 2],
+        }
+    }
+
+    /// Load on it (N, N m) along and about the same axes.
+    #[inline]
+    pub fn load(&self, ring: usize, axis: usize) -> &Quadratic {
+        match axis {
+            0 | 1 => &[&self.shaft_load, &self.housing_load][ring][axis],
+            _ => &self.beyond[ring].load[axis - 2],
+        }
+    }
+
     /// Cage angle at `tau` (rad).
     #[inline]
     pub fn cage_angle(&self, tau: f64) -> f64 {

@@ -10,8 +10,7 @@
 //! second, which is left out.
 
 use crate::contact::law::SqueezeFilm;
-use crate::geometry::film_thickness::speed_factor;
-use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio};
+use crate::geometry::film_thickness::{LubricatedContact, SPEED_EXPONENT, rolling_speed_ratio, speed_factor};
 use crate::numerics::number::Scalar;
 use crate::scene::{Remark, Scene};
 

@@ -237,7 +237,7 @@ impl Model {
     /// Whether each element needs what the plain bearing of equal elements, dry contacts, in an even cage and in the
     /// plane does not.
     #[inline(always)]
-    pub(in crate::dynamics) fn is_uneven_or_oiled(&self) -> bool {
+    pub(in crate::dynamics) fn needs_general_form(&self) -> bool {
         self.irregularity.is_some()
             || self.films.is_some()
             || self.dampers.is_some()

@@ -23,12 +23,11 @@
 //! is made smaller where one would. The path is the elastic one.
 
 use super::path_search::PathSearch;
-use super::tangent::RadialForce;
-use super::tangent::{Rings, stacked};
+use super::tangent::{RadialForce, Rings, stacked};
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized};
-use crate::dynamics::contacts::{Meeting, UnsolvedContact};
+use crate::dynamics::contacts::{
+    ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized, Meeting, Shortcuts, UnsolvedContact,
+};
 use crate::dynamics::parameters::{FramedKinematics, Model, PathMotion, SMOOTH};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;

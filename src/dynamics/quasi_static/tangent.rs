@@ -6,8 +6,7 @@
 //!
 //! An element that nothing touches does not answer.
 
-use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized};
+use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized, Shortcuts};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;

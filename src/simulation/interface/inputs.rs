@@ -24,6 +24,8 @@ pub(in crate::simulation) struct Inputs {
     pub(in crate::simulation) frames: bool,
     /// Inputs are the first so many rows.
     pub(in crate::simulation) count: usize,
+    /// A ring's coordinates that can be inputs: 2 in the plane, else 5.
+    pub(in crate::simulation) axes: usize,
     pub(in crate::simulation) shaft: RingInputs,
     pub(in crate::simulation) housing: RingInputs,
 }

@@ -111,7 +111,6 @@ impl<'a> Outputs<'a> {
             Quantity::Acceleration(ring, k @ 2..) => {
                 self.model.ring_rates_in_space(excitation, tau, self.solution.derivative)[ring.index()].velocity[k]
             }
-            Quantity::Force(ring, k @ 2..) => self.forces.rings[force_slot(ring.index(), k)],
             Quantity::Probe(k @ 2..) => {
                 let [shaft, housing] = self.in_space()?;
                 shaft.position[k] - housing.position[k]

@@ -1,10 +1,9 @@
 //! The variables of one scene by their references: what they stand for, and what may be asked of them. Nothing of a
 //! run.
 
-use super::dependencies;
 use super::quantity::{Count, Quantity};
 use super::value_access::{self, Access};
-use super::{Inputs, table};
+use super::{Inputs, dependencies, table};
 use crate::scene::{DegreesOfFreedom, Scene, nearest};
 use crate::simulation::VariableError;
 use crate::simulation::interface::table::{Causality, Dependencies, Kind, Variable};
@@ -26,7 +25,8 @@ impl Interface {
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let count = table.iter().take_while(|v| v.causality == Causality::Input).count();
         let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
-        let inputs = Inputs { frames: scene.turns() || in_space, ..Inputs::new(&quantities, count) };
+        let axes = if in_space { 5 } else { 2 };
+        let inputs = Inputs { frames: scene.turns() || in_space, axes, ..Inputs::new(&quantities, count) };
         Self { table: table.into(), quantities: quantities.into(), access, inputs }
     }
 

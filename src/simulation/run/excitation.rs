@@ -74,29 +74,13 @@ pub(in crate::simulation) fn follow(
     ended: &Excitation,
     step: f64,
 ) {
-    let [of_shaft, of_housing] = ended.beyond;
-    let rings = [
-        (inputs.shaft, ended.shaft, ended.shaft_load, of_shaft),
-        (inputs.housing, ended.housing, ended.housing_load, of_housing),
-    ];
-    for (ring, motion, load, beyond) in rings {
-        for axis in 0..2 {
+    for (of, ring) in inputs.rings().into_iter().enumerate() {
+        for axis in 0..inputs.axes {
+            let (motion, load) = (ended.motion(of, axis), ended.load(of, axis));
             let ends = [
-                (ring.position[axis], motion[axis].at(step)),
-                (ring.velocity[axis], motion[axis].rate_at(step)),
-                (ring.load[axis], load[axis].at(step)),
-            ];
-            for (index, value) in ends {
-                if let Some(i) = index {
-                    state.reals[i] = value;
-                }
-            }
-        }
-        for (k, (motion, load)) in beyond.motion.iter().zip(&beyond.load).enumerate() {
-            let ends = [
-                (ring.position[2 + k], motion.at(step)),
-                (ring.velocity[2 + k], motion.rate_at(step)),
-                (ring.load[2 + k], load.at(step)),
+                (ring.position[axis], motion.at(step)),
+                (ring.velocity[axis], motion.rate_at(step)),
+                (ring.load[axis], load.at(step)),
             ];
             for (index, value) in ends {
                 if let Some(i) = index {

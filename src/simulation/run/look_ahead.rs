@@ -26,7 +26,8 @@
 use super::life::{Simulation, UpToDate};
 use super::state::{Ended, History};
 use crate::dynamics::contacts::RingForces;
-use crate::numerics::plane::{Matrix, Vector};
+use crate::dynamics::parameters::force_slot;
+use crate::numerics::plane::Vector;
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Inputs, Quantity, RingName};
 
@@ -83,15 +84,16 @@ impl Simulation {
         self.invalidate(UpToDate::State);
         self.refresh()?;
         self.refresh_stiffness();
-        let of_rings = [RingName::Shaft, RingName::Housing]
-            .map(|ring| Vector::from_fn(|axis, _| self.value_of(Quantity::Acceleration(ring, axis))));
-        let stiffness = Matrix::from_fn(|row, column| self.value_of(Quantity::Stiffness(row, column)));
-        let late = stiffness * (of_rings[0] - of_rings[1]) * (history.step * history.step / 12.0);
+        let axes = self.interface.inputs.axes;
+        let [shaft, housing] = [RingName::Shaft, RingName::Housing]
+            .map(|ring| nalgebra::Vector5::from_fn(|axis, _| self.value_of(Quantity::Acceleration(ring, axis))));
+        let stiffness = nalgebra::Matrix5::from_fn(|row, column| self.value_of(Quantity::Stiffness(row, column)));
+        let late = stiffness * (shaft - housing) * (history.step * history.step / 12.0);
         self.advance(history.step)?;
         let mut force = self.run.state.progress.mean_force;
-        for axis in 0..2 {
-            force[axis] += late[axis];
-            force[2 + axis] -= late[axis];
+        for axis in 0..axes {
+            force[force_slot(0, axis)] += late[axis];
+            force[force_slot(1, axis)] -= late[axis];
         }
         Ok(force)
     }
@@ -112,7 +114,7 @@ fn go_on(history: &History, inputs: &Inputs, reals: &mut [f64]) {
     // In means of the steps, whose middles are so far apart.
     let [last, next] = [later + step, later + 3.0 * step].map(|reach| (reach / (later + first)).min(REACH));
     for (ring, of) in inputs.rings().into_iter().enumerate() {
-        for axis in 0..2 {
+        for axis in 0..inputs.axes {
             let (Some(x), Some(v), Some(a)) = (of.position[axis], of.velocity[axis], of.acceleration[axis]) else {
                 continue;
             };

@@ -44,10 +44,10 @@ pub(super) struct History {
     pub(super) step: f64,
     /// Lengths of the two steps before it (s), the later one first; 0 where there was none.
     pub(super) earlier: [f64; 2],
-    /// Mean accelerations over those (m/s²): of each step, of both rings, along both axes.
-    pub(super) means: [[[f64; 2]; 2]; 2],
-    /// Velocities at the beginning of the last step (m/s), of both rings.
-    pub(super) velocities: [[f64; 2]; 2],
+    /// Mean accelerations over those (m/s², rad/s²): of each step, of both rings, of all coordinates.
+    pub(super) means: [[[f64; 5]; 2]; 2],
+    /// Velocities at the beginning of the last step (m/s, rad/s), of both rings.
+    pub(super) velocities: [[f64; 5]; 2],
     /// Inputs where the last step has brought them.
     pub(super) arrived: Vec<f64>,
 }
@@ -55,7 +55,7 @@ pub(super) struct History {
 impl History {
     /// That of no step, for so many inputs.
     pub(super) fn none(inputs: usize) -> Self {
-        let (means, velocities) = ([[[0.0; 2]; 2]; 2], [[0.0; 2]; 2]);
+        let (means, velocities) = ([[[0.0; 5]; 2]; 2], [[0.0; 5]; 2]);
         Self { step: 0.0, earlier: [0.0; 2], means, velocities, arrived: vec![0.0; inputs] }
     }
 

@@ -140,7 +140,7 @@ fn critical_depth(scene: &Scene, length: f64) -> Option<f64> {
     (high < DEPTHS.1).then_some(high)
 }
 
-/// Ringing between the events; half a degree after each is left to the event itself.
+/// Ringing between the events. A degree after the entry and half a degree after the exit are left to the events.
 fn measured_ringing(measured: &Measured, entry: f64, over: f64) -> Option<Ringing> {
     let row = fold::average(&measured.signal_rows(entry, POINTS));
     let rate = measured.pass_frequency * POINTS as f64;

@@ -3,8 +3,7 @@
 use super::raceway::Raceway;
 use crate::recording::{Recording, SizingError};
 use crate::sizing::passages::{Break, LoadZone, Passages, continuity, fold, linear_prediction};
-use crate::spectra::Fault;
-use crate::spectra::{Combs, EXISTS, Grade, other_speed};
+use crate::spectra::{Combs, EXISTS, Fault, Grade, other_speed};
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
 use brinell::geometry::kinematics;

@@ -9,9 +9,8 @@
 //! grow with the duration, as a significance does. w holds a line as wide as a wandering cage makes it, and a line of
 //! the window. Harmonics that fall on the shaft's own comb are left out: a healthy machine has those.
 
-use crate::spectrum;
 use crate::spectrum::Band;
-use crate::statistics;
+use crate::{spectrum, statistics};
 use std::f64::consts::LN_2;
 
 /// Harmonics of a comb. The envelope of two impacts per passage has nulls: one harmonic proves nothing.

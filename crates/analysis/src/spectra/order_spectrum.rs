@@ -9,8 +9,7 @@
 //! ```
 
 use crate::recording::value_at;
-use crate::spectrum;
-use crate::statistics;
+use crate::{spectrum, statistics};
 
 /// Slowest speed over the fastest that is used.
 const SLOWEST: f64 = 0.125;

@@ -5,8 +5,7 @@
 //! many speeds some catch one or two tall lines of another one: there the weakest three of the five count.
 
 use super::lines::steps;
-use crate::spectrum;
-use crate::statistics;
+use crate::{spectrum, statistics};
 
 /// Harmonics of the shaft that are sought.
 pub(super) const SHAFT: usize = 5;

@@ -90,7 +90,7 @@ impl Instance {
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
-        self.looked_at = [0.0; 2];
+        (self.looked_at, self.looked_at_held, self.warned_of_shoulders) = ([0.0; 2], false, false);
         self.last_step = Status::Ok;
         Ok(unstored)
     }

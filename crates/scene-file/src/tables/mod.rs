@@ -251,20 +251,19 @@ enum DampingModel {
 
 impl ContactTable {
     fn into_contact(self, defect: bool) -> Result<Contact, TableFault> {
-        const CHI: &str = "contact.damping_chi_s_m";
-        const TAU: &str = "contact.damping_tau_s";
+        let (chi_key, tau_key) = ("contact.damping_chi_s_m", "contact.damping_tau_s");
         let wrong = |key, value, model, wanted| Err(TableFault::WrongDampingKey { key, value, model, wanted });
         let damping = match (self.damping, self.damping_chi_s_m, self.damping_tau_s) {
             (DampingModel::HuntCrossley, _, Some(tau)) => {
-                return wrong(TAU, tau, "hunt-crossley", CHI);
+                return wrong(tau_key, tau, "hunt-crossley", chi_key);
             }
             (DampingModel::Proportional, Some(chi), _) => {
-                return wrong(CHI, chi, "proportional", TAU);
+                return wrong(chi_key, chi, "proportional", tau_key);
             }
             (DampingModel::HuntCrossley, chi, None) => Damping::HuntCrossley(chi.unwrap_or(0.5)),
             (DampingModel::Proportional, None, Some(tau)) => Damping::Proportional(tau),
             (DampingModel::Proportional, None, None) => {
-                return Err(TableFault::Missing { key: TAU, why: "contact.damping is \"proportional\"" });
+                return Err(TableFault::Missing { key: tau_key, why: "contact.damping is \"proportional\"" });
             }
         };
         let default = if defect { ContactLaw::Map } else { ContactLaw::Hertz };

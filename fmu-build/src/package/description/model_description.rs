@@ -15,9 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use anyhow::Result;
 use brinell::simulation::Simulation;
 use brinell::simulation::exchange::{ExchangeRole, ExchangeVariable};
-use brinell::simulation::interface::Category;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variability, Variable};
-use brinell::simulation::interface::{ElementArray, of_all_elements};
+use brinell::simulation::interface::{Category, ElementArray, of_all_elements};
 use minijinja::{Value, context};
 
 use super::{exchange, units};

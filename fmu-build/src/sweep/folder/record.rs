@@ -1,9 +1,8 @@
 //! What a folder's rows were made of, line by line: a sweep goes on only where all of it is the same. A longer sweep
 //! begins with the shorter one, so how many runs there are to be is left out.
 
-use std::fs;
-use std::io;
 use std::path::Path;
+use std::{fs, io};
 
 use anyhow::{Context, Result, bail};
 use brinell::numerics::checksum::checksum;
@@ -11,8 +10,7 @@ use clap::ValueEnum;
 use toml::{Table, Value};
 
 use super::SignalFormat;
-use crate::shared::shipped;
-use crate::shared::whole_file;
+use crate::shared::{shipped, whole_file};
 use crate::sweep::file::Sweep;
 use crate::sweep::rows::Column;
 use crate::sweep::scenes::Base;

@@ -3,8 +3,7 @@
 use crate::contact::near_defect::NearDefect;
 use crate::contact::rolled_path::RigidPath;
 use crate::contact::rolling::{RacewaySide, Rolling};
-use crate::dynamics::contacts::Forces;
-use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::derivatives::jacobian::*;
 use crate::dynamics::parameters::{
     Cells, Centred, Cubic, DefectiveElement, Defects, Frame, Quadratic, SMOOTH, Turning,

@@ -1,8 +1,7 @@
 //! Elements in balance: those found side by side against those found alone, rates and tangents against differences.
 
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::Forces;
-use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, lively_with, moving};
 use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};

@@ -29,7 +29,7 @@ pub(crate) const NODES: [f64; 8] =
 pub(crate) const TIME: [f64; 8] =
     [GAMMA, -0.42387512638858027, -0.3384627126235924, 1.8046452872882734, 2.325825639765069, 0.0, 0.0, 0.0];
 
-/// a; the last row but for k₈ itself is also the weights of order 5, and without its last 1 those of order 4.
+/// a. The last row is also the solution of order 4; with k₈ added, of weight 1, it is that of order 5.
 pub(crate) const STAGES: [[f64; 7]; 8] = [
     [0.0; 7],
     [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

@@ -20,7 +20,6 @@ pub(super) struct Builder<'a> {
     rows: Vec<(Variable, Quantity)>,
 }
 
-pub(super) const AXES: [&str; 2] = ["x", "y"];
 pub(super) const RINGS: [RingName; 2] = [RingName::Shaft, RingName::Housing];
 /// Start value, limits and nominal value of a parameter, in its unit.
 #[derive(Debug, Clone, Copy)]

@@ -37,6 +37,28 @@ pub(super) fn stiffness_name(row: usize, column: usize) -> String {
 }
 
 impl Builder<'_> {
+    /// Forces on a ring along its axes, and in space moments about x and y.
+    pub(super) fn forces(
+        &mut self,
+        ring: RingName,
+        (of, what): (&str, &str),
+        prefix: &str,
+        text: [&str; 2],
+        quantity: fn(RingName, usize) -> Q,
+    ) {
+        for axis in 0..if self.in_space() { COORDINATES.len() } else { 2 } {
+            let [letter, along] = COORDINATES[axis];
+            let kind = Along { axis: ["force.", "Force"], tilt: ["moment.", "Moment"] }.of(axis);
+            self.output(
+                &[of, ".", prefix, kind[0], letter].concat(),
+                &[kind[1], text[0], " the ", what, " ", along, letter, text[1]].concat(),
+                quantity(ring, axis),
+                Along { axis: Unit::Newton, tilt: Unit::NewtonMetre }.of(axis),
+                Along { axis: 1000.0, tilt: 10.0 }.of(axis),
+            );
+        }
+    }
+
     /// Whether rings move beyond the plane.
     pub(super) fn in_space(&self) -> bool {
         self.scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two

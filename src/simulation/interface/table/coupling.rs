@@ -2,7 +2,7 @@
 //!
 //! These rows stand after all others, so that older ones keep their references.
 
-use super::builder::{AXES, Builder, REPEATED_INPUTS, RINGS};
+use super::builder::{Builder, REPEATED_INPUTS, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
 use crate::scene::Motion;
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
@@ -15,14 +15,12 @@ impl Builder<'_> {
                 RingName::Shaft => ("shaft", "inner ring"),
                 RingName::Housing => ("housing", "outer ring"),
             };
-            for (axis, letter) in AXES.iter().enumerate() {
-                let text = format!(
-                    "Force of the bearing's contacts to hold on the {what} along {letter} over a next communication \
-                     step of the same length; for a host that steps all units in parallel and holds inputs"
-                );
-                let name = format!("{name}.next_mean_force.{letter}");
-                self.output(&name, &text, Q::NextMeanForce(ring, axis), Unit::Newton, 1000.0);
-            }
+            let text = [
+                " of the bearing's contacts to hold on",
+                " over a next communication step of the same length; for a host that steps all units in parallel and \
+                 holds inputs",
+            ];
+            self.forces(ring, (name, what), "next_mean_", text, Q::NextMeanForce);
         }
         if hosted.is_empty() {
             return;

@@ -320,7 +320,7 @@ impl Builder<'_> {
                 }
             }
         }
-        // Which of the two forces belongs to which co-simulation algorithm: docs/systems.md.
+        // Which of the two forces belongs to which co-simulation algorithm: docs/how-to/systems.md.
         let hosted = motion == Motion::Host;
         let after =
             if hosted { "; with its derivative by time for a master that steps all units in parallel" } else { "" };
@@ -331,28 +331,6 @@ impl Builder<'_> {
                 "; for a host that takes the same step after the bearing, never for one in parallel",
             ];
             self.forces(ring, (of, what), "mean_", mean, Q::MeanForce);
-        }
-    }
-
-    /// Forces on a ring along its axes, and in space moments about x and y.
-    fn forces(
-        &mut self,
-        ring: RingName,
-        (of, what): (&str, &str),
-        prefix: &str,
-        text: [&str; 2],
-        quantity: fn(RingName, usize) -> Q,
-    ) {
-        for axis in 0..if self.in_space() { COORDINATES.len() } else { 2 } {
-            let [letter, along] = COORDINATES[axis];
-            let kind = Along { axis: ["force.", "Force"], tilt: ["moment.", "Moment"] }.of(axis);
-            self.output(
-                &[of, ".", prefix, kind[0], letter].concat(),
-                &[kind[1], text[0], " the ", what, " ", along, letter, text[1]].concat(),
-                quantity(ring, axis),
-                Along { axis: Unit::Newton, tilt: Unit::NewtonMetre }.of(axis),
-                Along { axis: 1000.0, tilt: 10.0 }.of(axis),
-            );
         }
     }
 

@@ -329,7 +329,9 @@ impl Simulation {
             Quantity::Velocity(name, k @ 2..) => variation.beyond[name.index()].velocity[k],
             Quantity::Acceleration(name, k @ 2..) => self.change.accelerations_beyond[name.index()][k - 2],
             Quantity::Force(name, k @ 2..) => forces.beyond[name.index()][k - 2],
-            Quantity::MeanForce(name, k @ 2..) if !self.run.state.started => forces.beyond[name.index()][k - 2],
+            Quantity::MeanForce(name, k @ 2..) | Quantity::NextMeanForce(name, k @ 2..) if !self.run.state.started => {
+                forces.beyond[name.index()][k - 2]
+            }
             Quantity::Probe(k @ 2..) => variation.beyond[0].position[k] - variation.beyond[1].position[k],
             Quantity::Position(name, axis) => ring(name).1.position[axis],
             Quantity::Velocity(name, axis) => ring(name).1.velocity[axis],

@@ -42,7 +42,7 @@ impl Simulation {
             for index in ring.load.into_iter().flatten() {
                 rates[index][0] = Some((end[index] - first[index]) / step);
             }
-            for axis in 0..2 {
+            for axis in 0..self.interface.inputs.axes {
                 if let (Some(x), Some(v), Some(a)) = (ring.position[axis], ring.velocity[axis], ring.acceleration[axis])
                 {
                     let d = end[x] - first[x] - first[v] * step;
@@ -72,17 +72,23 @@ impl Simulation {
     pub(super) fn note_step(&mut self, excitation: &Excitation, step: f64) {
         self.ahead.force = None;
         let (count, history) = (self.interface.inputs.count, &mut self.run.state.history);
-        let velocities = [&excitation.shaft, &excitation.housing].map(|ring| [ring[0].0[1], ring[1].0[1]]);
+        let axes = self.interface.inputs.axes;
+        let velocity = |ring: usize, axis: usize| excitation.motion(ring, axis).0[1];
         if history.step > 0.0 {
             history.earlier = [history.step, history.earlier[0]];
             history.means[1] = history.means[0];
             for (ring, mean) in history.means[0].iter_mut().enumerate() {
-                for (axis, mean) in mean.iter_mut().enumerate() {
-                    *mean = (velocities[ring][axis] - history.velocities[ring][axis]) / history.step;
+                for (axis, mean) in mean.iter_mut().enumerate().take(axes) {
+                    *mean = (velocity(ring, axis) - history.velocities[ring][axis]) / history.step;
                 }
             }
         }
-        (history.step, history.velocities) = (step, velocities);
+        history.step = step;
+        for (ring, velocities) in history.velocities.iter_mut().enumerate() {
+            for (axis, known) in velocities.iter_mut().enumerate().take(axes) {
+                *known = velocity(ring, axis);
+            }
+        }
         history.arrived.copy_from_slice(&self.run.state.reals[..count]);
     }
 }

@@ -11,8 +11,7 @@
 //! taking off nothing, nothing is taken off.
 
 use super::linear_prediction::Ringing;
-use crate::spectrum;
-use crate::statistics;
+use crate::{spectrum, statistics};
 
 /// Share of its force that an elastic contact has lost when its centre stands over a sharp edge.
 const LOST_AT_EDGE: f64 = 0.15;

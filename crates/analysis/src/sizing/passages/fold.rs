@@ -8,8 +8,7 @@
 //! Angles are degrees of element travel: one ball pass period is one element spacing.
 
 use crate::recording::value_at;
-use crate::spectrum;
-use crate::statistics;
+use crate::{spectrum, statistics};
 
 /// Points per element spacing at which shifts are sought; parabolas refine them.
 pub(crate) const GRID: usize = 400;
