@@ -119,7 +119,7 @@ def told(events, start):
         if name in events:
             yield f"{number}  {(events[name][0] - start) * 1e3:5.2f} ms  {words}"
         elif name == "free":
-            yield f"{number}  does not come: the element never gets free"
+            yield f"{number}   does not come: the element never gets free"
 
 
 def draw(stem, table, signals, raceway, normal, events, element, radius):
