@@ -125,7 +125,8 @@ const WATCH: &str = "{
 /// Where slider, clock and picture are.
 const STATE: &str = "({
   slider: Number(document.getElementById('motion-time').value), said: document.getElementById('motion-said').value,
-  button: document.getElementById('motion-play').textContent, picture: document.getElementById('motion-bearing').toDataURL(),
+  button: document.getElementById('motion-play').textContent,
+  picture: document.getElementById('motion-bearing').toDataURL(),
 })";
 /// How many pictures are drawn in a second and a half, and how long that was (s).
 const COUNT: &str = "new Promise((done) => {
