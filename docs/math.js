@@ -10,11 +10,14 @@
   const SPACES = { qquad: 2, quad: 1, ",": 0.17, " ": 0.25 };
   const ACCENTS = { dot: "˙", ddot: "¨", hat: "^" };
   const WORDS = { text: "mtext", mathrm: "mi mathvariant=\"normal\"" };
+  // Without one that is made for formulas, indices stand on the line and dots in their letters.
+  const FONTS = "STIX Two Math, Cambria Math, Latin Modern Math, Libertinus Math, DejaVu Math TeX Gyre, math";
   const TOKEN = /\\(?:text|mathrm|begin|end)\{[^}]*\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[^\s]/gsu;
 
   const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
   const tag = (name, inner) => `<${name}>${inner}</${name.split(" ")[0]}>`;
-  const fence = (sign, stretchy) => (sign === "." ? "" : tag(`mo stretchy="${stretchy}"`, escaped(sign)));
+  const fence = (sign, stretchy) =>
+    sign === "." ? "" : tag(`mo stretchy="${stretchy}" lspace="0" rspace="0"`, escaped(sign));
 
   function mathml(latex) {
     const tokens = latex.match(TOKEN) || [];
@@ -76,7 +79,7 @@
       if (!token.startsWith("\\")) {
         if (/\d/.test(token)) return tag("mn", token);
         if (/\p{L}/u.test(token)) return tag("mi", token);
-        return "()[]|".includes(token) ? fence(token, false) : tag("mo", escaped(token === "-" ? "−" : token));
+        return "()[]|/".includes(token) ? fence(token, false) : tag("mo", escaped(token === "-" ? "−" : token));
       }
       if (name === "left") {
         const open = fence(tokens[at], true);
@@ -96,7 +99,7 @@
       return tag("mtext style=\"color: red\"", escaped(token));
     }
 
-    return tag("math display=\"block\"", row());
+    return tag(`math display="block" style="font-family: ${FONTS}"`, row());
   }
 
   addEventListener("DOMContentLoaded", () => {

@@ -27,6 +27,7 @@
 #![cfg_attr(doc, doc = "\n")]
 #![cfg_attr(doc, doc = include_str!("../docs/explanation/theory.md"))]
 #![cfg_attr(doc, doc = concat!("<script>\n", include_str!("../docs/math.js"), "</script>"))]
+#![cfg_attr(doc, doc = concat!("<script>\n", include_str!("../docs/rustdoc.js"), "</script>"))]
 
 pub mod contact;
 pub mod dynamics;

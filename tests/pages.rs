@@ -166,3 +166,10 @@ fn formulas_have_only_what_the_script_that_sets_them_knows() {
     }
     assert!(commands > 200, "{commands} commands");
 }
+
+#[test]
+fn the_citation_is_of_this_version() {
+    let version = format!("version: {}", env!("CARGO_PKG_VERSION"));
+    let citation = fs::read_to_string(root().join("CITATION.cff")).unwrap();
+    assert!(citation.lines().any(|line| line == version), "no line {version}: {citation}");
+}

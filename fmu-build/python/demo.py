@@ -80,7 +80,7 @@ def passage(table, element, raceway, radius, centre):
 
 
 def find_events(signals, entry, leave):
-    """The four events, and least and greatest outer force, from the signals: name → (time [s], outer force [N])."""
+    """What happens to the outer force, from the signals: name → (time [s], outer force [N])."""
     time, force = signals["time"], signals["force.outer"]
     at = lambda when: (when, float(np.interp(when, time, force)))  # noqa: E731
     normal = float(np.median(force[time < entry]))
@@ -92,6 +92,9 @@ def find_events(signals, entry, leave):
         again = first + np.flatnonzero(force[first:] > 0.5 * normal)[0]
         least = first + int(np.argmin(force[first:again]))
         events["unloading"] = (float(time[first]), float(force[first]))
+        if force[least] == 0.0:
+            free = first + int(np.flatnonzero(force[first:again] == 0.0)[0])
+            events["free"] = (float(time[free]), 0.0)
         events["least"] = (float(time[least]), float(force[least]))
         events["reload"] = (float(time[again]), float(force[again]))
     peak = np.flatnonzero(inside)[int(np.argmax(force[inside]))]
@@ -100,12 +103,23 @@ def find_events(signals, entry, leave):
     return normal, events
 
 
-EXPLAINED = {
-    "entry": "entry: its centre passes the leading edge",
-    "unloading": "unloading: half of the outer force is gone",
-    "reload": "re-load at the trailing edge: half is back",
-    "exit": "exit: its centre passes the trailing edge",
+# Events by the paper's numbers, as `brinell paper fig1` has them.
+NUMBERED = {
+    "entry": (1, "enters: its centre passes the leading edge"),
+    "free": (2, "free of load, it may strike the floor"),
+    "reload": (3, "has half its force again, at the trailing edge"),
+    "exit": (4, "leaves: its centre passes the trailing edge"),
 }
+
+
+def told(events, start):
+    """A line for each of the paper's events; of one that does not come, why."""
+    yield "events by the paper's numbers"
+    for name, (number, words) in NUMBERED.items():
+        if name in events:
+            yield f"{number}  {(events[name][0] - start) * 1e3:5.2f} ms  {words}"
+        elif name == "free":
+            yield f"{number}   does not come: the element never gets free"
 
 
 def draw(stem, table, signals, raceway, normal, events, element, radius):
@@ -169,19 +183,18 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     path.legend(loc="upper right", ncols=3)
     path.set_xlabel("time after the element's centre passes the leading edge (ms)")
 
-    marked = {what: (events[what][0] - start) * 1e3 for what in EXPLAINED if what in events}
+    marked = {NUMBERED[what][0]: (events[what][0] - start) * 1e3 for what in NUMBERED if what in events}
     for axis in (housing, sensor, force, path):
         axis.set_xlim(ms[0], ms[-1])
         axis.tick_params(labelbottom=axis is path)
         for when in marked.values():
             axis.axvline(when, color="black", linewidth=0.8)
-    for number, (what, when) in enumerate(marked.items(), 1):
+    for number, when in marked.items():
         housing.annotate(
             str(number), (when, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2), textcoords="offset points",
             ha="center", va="bottom", fontweight="bold",
         )
-    lines = [f"{number}  {when:5.2f} ms  {EXPLAINED[what]}" for number, (what, when) in enumerate(marked.items(), 1)]
-    path.text(0.48, 0.06, "\n".join(lines), transform=path.transAxes, va="bottom", linespacing=1.5)
+    path.text(0.48, 0.05, "\n".join(told(events, start)), transform=path.transAxes, va="bottom", linespacing=1.5)
     figure.align_ylabels()
     plotting.save(figure, stem)
 
@@ -210,10 +223,11 @@ def main():
     plotting.write_csv(passage_csv, [f"{name} [{units.get(name, 'N')}]" for name in signals], signals.values())
     events_csv = folder / "events.csv"
     with plotting.whole(events_csv) as part, open(part, "w", encoding="utf-8", newline="\n") as file:
-        file.write("event,time [s],after entry [s],outer force [N]\n")
+        file.write("event,the paper's number,time [s],after entry [s],outer force [N]\n")
         for name, (when, value) in events.items():
-            file.write(f"{name},{when!r},{when - entry!r},{value!r}\n")
-            print(f"{name:10} {(when - entry) * 1e3:7.3f} ms after entry, outer force {value:7.1f} N")
+            number, _ = NUMBERED.get(name, ("", ""))
+            file.write(f"{name},{number},{when!r},{when - entry!r},{value!r}\n")
+            print(f"{number:1} {name:10} {(when - entry) * 1e3:7.3f} ms after entry, outer force {value:7.1f} N")
     for path in (overview, passage_csv, events_csv):
         print(path)
     draw(folder / "demo", table, signals, raceway, normal, events, element, radius)

@@ -180,7 +180,7 @@ fn checked_wheel(end: &str, tags: &[String], program: &str) -> Vec<u8> {
         let ours = fs::read(common::root().join(file)).unwrap();
         assert!(read(&format!("{top}.dist-info/licenses/{file}")) == ours, "{end}: {file}");
     }
-    for file in ["__init__.py", "host.py", "results.py", "ross.py", "py.typed"] {
+    for file in ["__init__.py", "figures.py", "host.py", "results.py", "ross.py", "py.typed"] {
         let ours = fs::read(common::root().join("fmu-build/module/brinell").join(file)).unwrap();
         assert!(read(&format!("brinell/{file}")) == ours, "{end}: {file}");
     }

@@ -27,6 +27,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from . import figures
 from .results import Answer, Columns, Run
 
 __all__ = [
@@ -150,13 +151,12 @@ def run(
     options += [f"--columns={names or '*'}"]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("run", "--no-figure", "--output", folder, *options)
-        (table,) = Path(folder).glob("*.csv")
-        with open(table, encoding="utf-8") as file:
-            heads = [head.rpartition(" [") for head in file.readline().strip().split(",")]
-            values = np.loadtxt(file, delimiter=",", ndmin=2)
+        (file,) = Path(folder).glob("*.csv")
+        table = _table(file)
         recordings = [np.load(path) for path in Path(folder).glob("*.npy")]
-    signals = {name: np.ascontiguousarray(values[:, index]) for index, (name, _, _) in enumerate(heads)}
-    units = {name: unit.rstrip("]") for name, _, unit in heads}
+    heads = {head: head.rpartition(" [") for head in table}
+    signals = {name: table[head] for head, (name, _, _) in heads.items()}
+    units = {name: unit.rstrip("]") for name, _, unit in heads.values()}
     return Run(signals, units, recordings[0] if recordings else None)
 
 
@@ -194,8 +194,12 @@ def size(
     options = [f"--{name}={value}" for name, value in given.items() if value not in (None, "")]
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         words = ["--no-figure", "--output", os.fspath(output or folder), *options]
-        report: dict[str, Any] = json.loads(_ask("size", *words, "--", *(os.fspath(file) for file in files)))
-    return Answer(report, report["recordings"])
+        said, told = _asked("size", *words, "--", *(os.fspath(file) for file in files))
+        # What was written is named, in the order of the recordings.
+        written = (Path(line) for line in told.splitlines() if line.endswith(".csv"))
+        tables = {path.stem: _table(path) for path in written if path.is_file()}
+    report: dict[str, Any] = json.loads(said)
+    return Answer(report, report["recordings"], figures.passages, tables)
 
 
 def new(
@@ -229,10 +233,7 @@ def stiffness(scene: PathLike, *, load: float | None = None) -> Columns:
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
         _ask("stiffness", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
         (table,) = Path(folder).glob("*-stiffness.csv")
-        with open(table, encoding="utf-8") as file:
-            names = file.readline().strip().split(",")
-            values = np.loadtxt(file, delimiter=",", ndmin=2)
-    return Columns((name, np.ascontiguousarray(values[:, index])) for index, name in enumerate(names))
+        return Columns(_table(table))
 
 
 def modes(scene: PathLike, *, load: float | None = None) -> Answer:
@@ -242,7 +243,7 @@ def modes(scene: PathLike, *, load: float | None = None) -> Answer:
         (file,) = Path(folder).glob("*-modes.json")
         found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     rows = [{"cage_angle_deg": one["cage_angle_deg"], **mode} for one in found["angles"] for mode in one["modes"]]
-    return Answer(found, rows, "lines")
+    return Answer(found, rows, figures.modes, shown="lines")
 
 
 def contact(scene: PathLike, *, on: str, angle: float, force: float, pressure_limit: float | None = None) -> Answer:
@@ -252,9 +253,10 @@ def contact(scene: PathLike, *, on: str, angle: float, force: float, pressure_li
     words = [f"--on={on}", f"--angle={angle!r}", f"--force={force!r}", "--no-figure"]
     words += _optional("yield", pressure_limit)
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        said = _ask("contact", os.fspath(scene), *words, "--output", folder)
-    found: dict[str, Any] = json.loads(said)
-    return Answer(found, [{"contact": which, **found[which]} for which in ("found", "hertz")])
+        found: dict[str, Any] = json.loads(_ask("contact", os.fspath(scene), *words, "--output", folder))
+        tables = {name: _table(next(Path(folder).glob(f"*-{name}.csv"))) for name in ("pressure", "depth")}
+    rows = [{"contact": which, **found[which]} for which in ("found", "hertz")]
+    return Answer(found, rows, figures.pressure, tables)
 
 
 def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool | str = False) -> Path:
@@ -276,8 +278,21 @@ def scenes() -> list[str]:
     return [line.split()[0] for line in _ask("scenes").splitlines()]
 
 
+def _table(path: Path) -> dict[str, figures.Signal]:
+    """Columns of a CSV file by their heads."""
+    with open(path, encoding="utf-8") as file:
+        heads = file.readline().strip().split(",")
+        values = np.loadtxt(file, delimiter=",", ndmin=2)
+    return {head: np.ascontiguousarray(values[:, index]) for index, head in enumerate(heads)}
+
+
 def _ask(*words: str) -> str:
     """Runs the program and gives what it prints."""
+    return _asked(*words, above=1)[0]
+
+
+def _asked(*words: str, above: int = 0) -> tuple[str, str]:
+    """The same, with what it says on standard error; remarks are `above` more calls below the user's line."""
     done = subprocess.run([program(), *words], capture_output=True, text=True, encoding="utf-8")
     if done.returncode != 0:
         # Notes may stand before it; of a scene's faults each has its line.
@@ -287,5 +302,5 @@ def _ask(*words: str) -> str:
         kind, _, said = line.partition(": ")
         if kind in ("note", "warning"):
             # Of the line that called this package: the caller of whoever asks here.
-            warnings.warn(said, BrinellWarning, stacklevel=3)
-    return done.stdout
+            warnings.warn(said, BrinellWarning, stacklevel=3 + above)
+    return done.stdout, done.stderr

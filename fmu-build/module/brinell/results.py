@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, Callable, Optional
 
 import numpy as np
 import numpy.typing as npt
 
-Signal = npt.NDArray[np.float64]
+from . import figures
+from .figures import Signal, Table
+
+Draw = Callable[[Mapping[str, Any], Mapping[str, Table]], Any]
 STIFFNESS = ("stiffness.free", "stiffness.held", "stiffness.healthy")
 
 
@@ -27,21 +30,6 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
     what = "signal" if units is not None else "column"
     head = f"<tr><th>{what}</th>{unit}<th>least</th><th>mean</th><th>greatest</th></tr>"
     return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
-
-
-def _panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) -> Any:
-    """A figure of named columns with their units over one, a panel for each unit."""
-    from matplotlib import pyplot
-
-    units = list(dict.fromkeys(unit for _, unit, _ in columns))
-    figure, axes = pyplot.subplots(len(units), 1, sharex=True, squeeze=False, layout="constrained")
-    for unit, axis in zip(units, axes[:, 0]):
-        for name, _, values in (column for column in columns if column[1] == unit):
-            axis.plot(where, values, label=name, linewidth=0.9)
-        axis.set_ylabel(unit)
-        axis.legend(loc="upper right")
-    axes[-1, 0].set_xlabel(along)
-    return figure
 
 
 class Run(Mapping[str, Signal]):
@@ -86,7 +74,7 @@ class Run(Mapping[str, Signal]):
         what the sensors show, or the housing's acceleration."""
         chosen = [names] if isinstance(names, str) else list(names or ())
         chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
-        return _panels("time (s)", self["time"], [(name, self.units[name], self[name]) for name in chosen])
+        return figures.panels("time (s)", self["time"], [(name, self.units[name], self[name]) for name in chosen])
 
 
 class Columns(dict[str, Signal]):
@@ -110,16 +98,29 @@ class Columns(dict[str, Signal]):
         chosen = [names] if isinstance(names, str) else list(names or STIFFNESS)
         drawn = [heads.get(name, name) for name in chosen]
         columns = [(head.rpartition(" [")[0], head.rpartition(" [")[2].rstrip("]"), self[head]) for head in drawn]
-        return _panels("cage angle (rad)", next(iter(self.values())), columns)
+        return figures.panels("cage angle (rad)", next(iter(self.values())), columns)
 
 
 class Answer(dict[str, Any]):
     """What the program writes as JSON, a dictionary. Its rows are those of :meth:`to_pandas`: one for a recording, a mode
-    at a cage angle, or a contact."""
+    at a cage angle, or a contact.
 
-    def __init__(self, answer: dict[str, Any], rows: list[dict[str, Any]], shown: str = "") -> None:
+    ``tables`` are what it writes beside that, by name and by column with unit: of ``size`` the averaged passage of each
+    recording, of ``contact`` ``"pressure"`` of the cells and stresses over ``"depth"``.
+    """
+
+    def __init__(
+        self,
+        answer: dict[str, Any],
+        rows: list[dict[str, Any]],
+        draw: Draw,
+        tables: Optional[Mapping[str, Table]] = None,
+        shown: str = "",
+    ) -> None:
         super().__init__(answer)
+        self.tables = tables or {}
         self._rows = rows
+        self._draw = draw
         # The list that is shown below numbers and words.
         self._shown = shown
 
@@ -134,6 +135,11 @@ class Answer(dict[str, Any]):
         import pandas
 
         return pandas.DataFrame([dict(_flat(row)) for row in self._rows])
+
+    def plot(self) -> Any:
+        """Draws the answer and gives the ``matplotlib`` figure: averaged passages with what was found in them, natural
+        frequencies and damping over the cage angle, or pressure and stress beside Hertz's."""
+        return self._draw(self, self.tables)
 
 
 def _table(rows: list[tuple[Any, ...]]) -> str:

@@ -12,6 +12,7 @@ const Motion = (() => {
     const power = Math.pow(10, Math.floor(Math.log10(value)));
     return power * (value >= 5 * power ? 5 : value >= 2 * power ? 2 : 1);
   };
+  const newtons = (force) => `${force.toFixed(force < 10 ? 2 : 0)} N`;
   const depthAt = (surface, s) => {
     for (let k = 1; k < surface.length; k++) {
       const [a, b] = [surface[k - 1], surface[k]];
@@ -168,10 +169,10 @@ const Motion = (() => {
     const force = [at(m.shaft["force.x"], f), at(m.shaft["force.y"], f)], whole = Math.hypot(...force);
     const part = (2.2 * r * scale) / Math.max(m.wholeForce, 1e-9);
     arrow(c, middle, [part * force[0], -part * force[1]], SIGNAL);
-    words(c, `bearing on shaft ${whole.toFixed(0)} N`, middle[0], middle[1] + 12, "center", SIGNAL);
+    words(c, `bearing on shaft ${newtons(whole)}`, middle[0], middle[1] + 12, "center", SIGNAL);
     words(c, "to scale, but forces", 6, 12);
     words(c, m.defects.length ? `and depths × ${k}` : "", 6, 28);
-    words(c, `largest force ${m.largest.toFixed(0)} N`, 6, height - 12, "left", LOAD);
+    words(c, `largest force ${newtons(m.largest)}`, 6, height - 12, "left", LOAD);
   }
 
   // Where an element is over a defect: arc from its middle to the element (m), how far the element is from the smooth
@@ -259,7 +260,7 @@ const Motion = (() => {
     scaleBars(c, { left, right, top, bottom, px, py, low, high, room });
     const times = (bottom - top) / (high - low) / ((right - left) / (2 * room));
     const body = d.on === "element" ? `${met.out ? "outer" : "inner"} raceway, element's own defect` : `${d.on} raceway`;
-    words(c, `element ${met.j + 1}: ${met.force.toFixed(0)} N, ${body}; heights × ${Number(times.toPrecision(2))}`, left, 12);
+    words(c, `element ${met.j + 1}: ${newtons(met.force)}, ${body}; heights × ${Number(times.toPrecision(2))}`, left, 12);
   }
 
   function scaleBars(c, { left, right, top, bottom, px, py, low, high, room }) {

@@ -42,6 +42,7 @@ function startMotion() {
   m.defects.forEach((d, k) => by("defect").add(new Option(`defect ${k + 1}: ${d.on}${d.element ? ` ${d.element}` : ""}`, k)));
   by("defect").hidden = m.defects.length < 2;
   if (!m.defects.length) by("zoom").style.display = "none";
+  if (!m.signal) by("signal").style.display = "none";
   by("defect").addEventListener("change", () => {
     defect = Number(by("defect").value);
     show();
@@ -52,8 +53,7 @@ function startMotion() {
     for (let j = 1; j <= m.count; j++) element.add(new Option(`ball ${j}`, j));
     element.addEventListener("change", show);
   }
-  by("sound").disabled = !m.signal;
-  by("sound").addEventListener("click", () => playSound(m.signal));
+  offerSound(by("sound"), m);
   document.getElementById("signals").on("plotly_click", (event) => {
     time = Math.max(m.start, Math.min(end, event.points[0].x));
     show();
@@ -73,14 +73,37 @@ function startMotion() {
   document.body.dataset.motion = "drawn";
 }
 
+// A button that plays what the sensor shows, once; pressed again it ends that. Without a signal it says why.
+function offerSound(button, { signal, sensor }) {
+  let sound = null;
+  const end = (of) => {
+    // What has been silenced may end later.
+    if (of !== sound) return;
+    sound.close();
+    sound = null;
+    button.textContent = "Sound";
+  };
+  button.disabled = !signal;
+  if (!signal) button.textContent = `No sound: ${sensor} stays as it is`;
+  button.addEventListener("click", () => {
+    if (sound) return end(sound);
+    sound = playSound(signal, end);
+    button.textContent = "Silence";
+  });
+}
+
 // What the sensor shows as sound, its largest value at four fifths of full scale.
-function playSound(signal) {
+function playSound(signal, ended) {
+  // Buffers have these rates everywhere; a signal of another is played by so much faster or slower.
   const rate = Math.min(96000, Math.max(8000, Math.round(1 / signal.step)));
   const context = new AudioContext(), buffer = context.createBuffer(1, signal.values.length, rate);
   const peak = signal.values.reduce((most, v) => Math.max(most, Math.abs(v)), 1e-12);
   buffer.copyToChannel(signal.values.map((v) => (0.8 * v) / peak), 0);
   const source = context.createBufferSource();
   source.buffer = buffer;
+  source.playbackRate.value = 1 / (signal.step * rate);
   source.connect(context.destination);
+  source.onended = () => ended(context);
   source.start();
+  return context;
 }

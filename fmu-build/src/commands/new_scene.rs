@@ -174,6 +174,15 @@ mod tests {
     }
 
     #[test]
+    fn the_width_of_lines_that_a_scene_promises_is_that_of_its_spectra() {
+        let own = text("mine", &catalogued("6205").unwrap(), Asked::default()).unwrap();
+        let stop = brinell_scene_file::from_toml(&own).unwrap().experiment.stop;
+        // As `line_width_hz` beside a spectrum of the envelope: four lines of a Fourier transform under Hann's window.
+        let promised = format!("4 / {stop} s = {:.1} Hz wide", 4.0 / stop);
+        assert!(own.contains(&promised), "{promised}: {own}");
+    }
+
+    #[test]
     fn an_axial_load_asks_for_three_degrees_of_freedom() {
         for (name, axial, expected) in
             [("7205B", Some(500.0), 500.0), ("6205", Some(-300.0), -300.0), ("7205C", None, 500.0)]

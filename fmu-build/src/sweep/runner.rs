@@ -14,14 +14,14 @@ use brinell_analysis::statistics::mean;
 use toml::Value;
 
 use super::design::Run;
-use super::file::Sweep;
+use super::file::{Kind as Fault, Sweep};
 use super::folder::Folder;
 use super::maps::Maps;
 use super::rows::columns::envelope_name;
 use super::rows::labels::{self, carries_shaft_load, rounded};
 use super::rows::statistics::{OneElement, Passage, Statistics, passages};
 use super::rows::{Cell, Column, Kind, Row};
-use super::scenes::{Base, run_name};
+use super::scenes::{Base, is_of_defect, run_name};
 use crate::interrupt::Interrupted;
 use crate::package::model::tell_depths;
 use crate::run::columns::Columns;
@@ -96,7 +96,9 @@ impl SweepRunner<'_> {
     /// What a run was given.
     fn put_values(&self, row: &mut Row, run: &Run) -> Result<()> {
         let mut put = |name: &str, cell: Cell| row.put(self.columns, name, cell);
-        for (key, value) in &run.values {
+        // What is drawn of a defect says nothing of a bearing that has none.
+        let is_its_own = |key: &str| run.kind != Some(Fault::Healthy) || !is_of_defect(key);
+        for (key, value) in run.values.iter().filter(|(key, _)| is_its_own(key)) {
             let cell = match (value, self.columns.iter().find(|column| column.name == *key).map(|column| column.kind)) {
                 (Value::Integer(whole), Some(Kind::Whole)) => Cell::Whole(*whole),
                 (value, Some(Kind::Number)) => super::file::number(value).map_or(Cell::Missing, Cell::Number),

@@ -154,4 +154,9 @@ fn the_demo_is_what_the_readme_shows() {
     let output = typed("brinell demo", &folder);
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success() && said.contains("demo.png"), "{said}");
+    // By the paper's numbers; there is no 2, as no element gets free.
+    let events = fs::read_to_string(folder.join("brinell-demo/events.csv")).unwrap();
+    let numbered = events.lines().skip(1).map(|line| line.split(',').take(2).collect::<Vec<_>>().join(" "));
+    let numbered: Vec<String> = numbered.filter(|words| !words.ends_with(' ')).collect();
+    assert_eq!(numbered, ["entry 1", "reload 3", "exit 4"], "{events}");
 }

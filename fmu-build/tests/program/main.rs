@@ -15,6 +15,7 @@ mod paper;
 mod run_figure;
 mod run_options;
 mod run_page;
+mod run_player;
 mod schema;
 mod size;
 mod stiffness;

@@ -122,13 +122,27 @@ fn write_the_notebooks() {
 #[test]
 fn the_notebook_of_a_bearing_finds_its_spall_in_envelope_and_length() {
     // Lines of a spectrum over 0.55 s are 1.8 Hz apart.
-    let check = "assert abs(strongest - ball_pass) < 1.9\nassert len(plt.get_fignums()) == 3\n\
-                 assert run.units['sensor.acceleration'] == 'm/s2' and run.recording is None\n\
-                 assert report['fault'] == 'outer', report\n\
-                 found = sorted(set(os.listdir()) - {'notebook.py'})\n\
-                 assert found == ['mine.toml', 'recording.npy', 'scene.schema.json'], found\n";
-    run("bearing.ipynb", check);
+    run("bearing.ipynb", BEARING);
 }
+
+const BEARING: &str = r#"
+assert abs(strongest - ball_pass) < 1.9
+assert len(plt.get_fignums()) == 3
+assert run.units["sensor.acceleration"] == "m/s2" and run.recording is None
+assert report["fault"] == "outer", report
+(passage,) = report["recordings"]
+# Similarity has no impacts: some are put in.
+passage["impacts_deg"] = [1.5, 3.25]
+axes = report.plot().axes
+assert [axis.get_ylabel() for axis in axes] == ["signal (recording's unit)", "envelope (dB)"], axes
+assert {axis.get_xlabel() for axis in axes} == {"travel of the element from the leading edge (degrees)"}, axes
+ends = [[line.get_xdata() for line in axis.lines if len(line.get_xdata()) == 2] for axis in axes]
+marks = [*passage["edges_deg"], 1.5, 3.25]
+assert [[at for at, last in of if at == last] for of in ends] == [marks, marks], (ends, marks)
+assert axes[0].get_title("left").startswith("recording.npy: 2."), axes[0].get_title("left")
+found = sorted(set(os.listdir()) - {"notebook.py"})
+assert found == ["mine.toml", "recording.npy", "scene.schema.json"], found
+"#;
 
 #[test]
 fn the_notebook_of_an_fmu_steps_it_in_fmpy() {
@@ -267,9 +281,33 @@ assert "undamped_frequency_hz" in modes._repr_html_() and "stiffness.free [N/m]"
 (axis,) = table.plot().axes
 assert axis.get_ylabel() == "N/m" and len(axis.lines) == 3, axis
 assert [axis.get_ylabel() for axis in table.plot(["shaft.y", "load.y [N]"]).axes] == ["m", "N"]
+figure = modes.plot()
+assert [axis.get_xlabel() for axis in figure.axes] == ["cage angle from the defect (degrees)"] * 2
+named = [text.get_text() for text in figure.legends[0].get_texts()]
+for axis, label, extent, scale in (
+    (figure.axes[0], "undamped natural frequency (Hz)", "undamped_frequency_hz", 1),
+    (figure.axes[1], "damping ratio (%)", "damping_ratio", 100),
+):
+    ends = sorted([scale * end for end in line[extent]] for line in modes["lines"])
+    drawn = sorted([np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())] for line in axis.lines)
+    assert axis.get_ylabel() == label and np.allclose(drawn, ends, rtol=1e-12) and len(ends) > 4, (drawn, ends)
+    rings = [line.get_label() for line in axis.lines if line.get_label()[0].isdigit()]
+    assert set(rings) | {"elements"} == set(named) and any("housing.y" in name for name in rings), (rings, named)
 dented = brinell.contact("er16k-tb1", on="outer", angle=7.9, force=500, pressure_limit=6)
 assert isinstance(dented, dict) and dented["found"]["max_pressure_mpa"] <= 6000.1, dented["found"]
 assert "<td>found.max_pressure_mpa</td><td>6000</td>" in dented._repr_html_()
+along, across, below = dented.plot().axes
+assert [axis.get_ylabel() for axis in (along, across, below)] == ["pressure (MPa)"] * 2 + ["depth (mm)"]
+assert along.get_xlabel() == "x, along the raceway (mm)" and across.get_xlabel() == "y, across the raceway (mm)"
+assert below.get_xlabel() == "von Mises stress (MPa)"
+(x, y), cells = brinell.figures.cells(dented, dented.tables["pressure"])
+# Pressures carry the force, to what the solver leaves.
+assert abs(cells.sum() * (x[1] - x[0]) * (y[1] - y[0]) - 500) < 0.01, cells.sum()
+assert 5900 < along.lines[0].get_ydata().max() < 6000.1, along.lines[0].get_ydata().max()
+for axis, half in zip((along, across), dented["hertz"]["half_axes_mm"]):
+    where, hertz = axis.lines[1].get_data()
+    assert abs(hertz.max() / dented["hertz"]["max_pressure_mpa"] - 1) < 1e-3
+    assert abs(where[hertz > 0].max() / half - 1) < 0.01, (where[hertz > 0].max(), half)
 assert len(brinell.run(bearing="6206", defect="inner:1.2mm", stop=0.001)["time"]) == 51
 run = brinell.run("6205-healthy", stop=0.005)
 assert "<table>" in run._repr_html_() and run["time"][-1] == 0.005

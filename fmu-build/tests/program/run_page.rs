@@ -8,7 +8,7 @@ use std::process::Command;
 use std::{env, fs};
 
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-const FLAGS: [&str; 10] = [
+pub(super) const FLAGS: [&str; 9] = [
     "--headless",
     "--no-sandbox",
     "--disable-gpu",
@@ -18,11 +18,11 @@ const FLAGS: [&str; 10] = [
     "--disable-component-update",
     "--disable-sync",
     "--hide-scrollbars",
-    // Time of the page, not of the machine.
-    "--virtual-time-budget=20000",
 ];
+/// Time of the page, not of the machine.
+const OWN_TIME: &str = "--virtual-time-budget=20000";
 
-fn browser() -> Option<String> {
+pub(super) fn browser() -> Option<String> {
     let named = env::var("BRINELL_BROWSER").ok();
     let usual = BROWSERS.iter().map(|name| (*name).to_owned());
     let answers = |name: &String| Command::new(name).arg("--version").output().is_ok_and(|said| said.status.success());
@@ -34,6 +34,7 @@ fn opened(browser: &str, folder: &Path, page: &str, more: &[&str]) -> String {
     let profile = tempfile::tempdir_in(folder).unwrap();
     let output = Command::new(browser)
         .args(FLAGS)
+        .arg(OWN_TIME)
         .arg(format!("--user-data-dir={}", profile.path().display()))
         .args(more)
         .arg(format!("file://{page}"))
@@ -53,7 +54,7 @@ fn points(dom: &str) -> usize {
 }
 
 /// A page of a scene.
-fn page(name: &str, scene: &str, more: &[&str]) -> std::path::PathBuf {
+pub(super) fn page(name: &str, scene: &str, more: &[&str]) -> std::path::PathBuf {
     common::python();
     let folder = common::folder(name);
     let output = Command::new(env!("CARGO_BIN_EXE_brinell"))

@@ -278,7 +278,7 @@ fn rows_say_what_they_are_runs_of() {
     ] {
         for ((label_of, value), healthy) in number(label).into_iter().zip(number(key)).zip(&healthy) {
             if *healthy && label != "label_load_n" {
-                assert_eq!(label_of, None);
+                assert_eq!((label_of, value), (None, None), "{label} and {key} of a healthy run");
             } else {
                 // Metres and back again, and a vector's length.
                 assert!((label_of.unwrap() / value.unwrap() - 1.0).abs() < 1e-11, "{label}: {label_of:?} {value:?}");

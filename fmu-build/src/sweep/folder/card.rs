@@ -68,8 +68,8 @@ impl Card<'_> {
             self.what(rows),
             "\n## Runs of each class\n\n".to_owned(),
             self.classes(rows),
-            "\n## Columns\n\nWhat a run does not have is null. Keys of a defect are as they were \
-             drawn: a healthy run has no defect all the same.\n\n| column | unit | meaning |\n|---|---|---|\n"
+            "\n## Columns\n\nWhat a run does not have is null, as keys of a defect in a healthy run.\n\n\
+             | column | unit | meaning |\n|---|---|---|\n"
                 .to_owned(),
             self.columns.iter().map(column).collect(),
             "\n## How it was made\n\n".to_owned(),
