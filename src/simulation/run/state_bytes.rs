@@ -35,7 +35,7 @@ impl State {
         let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         // Steps, means, velocities; the inputs twice, one list with a time and a flag.
-        let history = 8 * (1 + 2 + 8 + 4 + self.history.arrived.len()) + 1 + 8 * (1 + self.first.values.len());
+        let history = 8 * (1 + 2 + 20 + 10 + self.history.arrived.len()) + 1 + 8 * (1 + self.first.values.len());
         fixed
             + history
             + 8 * real
