@@ -44,7 +44,7 @@ MOTION = [f"shaft.{order}{axis}" for order in ("", "v", "a") for axis in "xyz"]
 MOTION += [f"shaft.tilt.{order}{axis}" for order in ("", "v", "a") for axis in "xy"]
 FORCES = {
     kind: [f"shaft.{kind}force.{axis}" for axis in "xyz"] + [f"shaft.{kind}moment.{axis}" for axis in "xy"]
-    for kind in ("", "mean_")
+    for kind in ("", "mean_", "next_mean_")
 }
 SIZES = np.array([1.0, 1.0, 1.0, PLACES["right"], PLACES["right"]])
 
@@ -207,7 +207,7 @@ def pair(bearing, mounted, kind, start):
     elements, wires = [], []
     shaft_connectors = []
     for name in PLACES:
-        gives = [force.replace("shaft.", "").replace("mean_", "") for force in FORCES[kind]]
+        gives = [force.replace("shaft.", "").replace(kind, "") for force in FORCES[kind]]
         connectors = [connector(motion, "input") for motion in MOTION]
         connectors += [connector(force, "output") for force in FORCES[kind]]
         values = {"bearing.contact_angle": angles(mounted)[name], "shaft.speed": SPEED}
@@ -260,6 +260,7 @@ def by_fmpy(ssp, h, stop):
 
 ALGORITHMS = [
     ("ours", "parallel", "`force`, held", "", ours("parallel", "held")),
+    ("ours", "parallel", "`next_mean_force`, held", "next_mean_", ours("parallel", "held")),
     ("ours", "parallel", "`force` and its derivative", "", ours("parallel", "derivative")),
     ("ours", "sequential", "`force`, interpolated", "", ours("sequential", "interpolated")),
     ("ours", "sequential", "`mean_force`, held", "mean_", ours("sequential", "held")),
@@ -295,7 +296,7 @@ def main():
     host.close()
     systems = {}
     for kind in FORCES:
-        path = options.output / f"pair-{options.mounted}{'-mean' if kind else ''}.ssp"
+        path = options.output / f"pair-{options.mounted}{'-' * bool(kind)}{kind.strip('_')}.ssp"
         systems[kind] = write_system(path, pair(bearing.name, options.mounted, kind, start), [bearing, shaft])
         print(path)
     print(f"stiffness: {stiffness[2, 2]:.4g} N/m along the axis, {stiffness[3, 3]:.4g} N m/rad against tilt")
