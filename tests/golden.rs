@@ -236,6 +236,7 @@ scenes! {
     rotor_gives_the_numbers_it_gave "6205-rotor"
     inner_5deg_gives_the_numbers_it_gave "6205-inner-5deg"
     inner_5deg_as_shipped_gives_the_numbers_it_gave "6205-inner-5deg-map"
+    inner_5deg_machine_gives_the_numbers_it_gave "6205-inner-5deg-machine"
     irregular_cage_gives_the_numbers_it_gave "6205-irregular-cage"
     spall_5deg_gives_the_numbers_it_gave "6205-spall-5deg"
     spall_5deg_machine_gives_the_numbers_it_gave "6205-spall-5deg-machine"

@@ -18,6 +18,23 @@ fn with(mut scene: Scene, all: &[Waviness]) -> Scene {
     scene
 }
 
+#[test]
+fn the_torque_on_the_shaft_is_described_by_what_causes_it() {
+    let inner = waves(WavyBody::Inner, 3, 1e-6, 0.0);
+    let mut struck = loaded();
+    struck.contact.law = ContactLaw::Hertz;
+    struck.defects = vec![Defect::inner(-FRAC_PI_2, spall(0.8e-3, 50e-6))];
+    for (scene, at) in [
+        (struck.clone(), "at the defect on"),
+        (with(loaded(), std::slice::from_ref(&inner)), "at the waves of"),
+        (with(struck, &[inner]), "at the defect and the waves of"),
+    ] {
+        let simulation = Simulation::new(scene, None).unwrap();
+        let row = simulation.table().iter().find(|row| row.name == "shaft.torque").unwrap();
+        assert_eq!(row.description, format!("Torque of contacts {at} the inner ring about its centre"));
+    }
+}
+
 /// Energy minimized, exact geometry: an independent computation, to the digits that it was printed with.
 #[test]
 fn load_distributions_are_those_of_an_independent_computation() {

@@ -171,13 +171,17 @@ fn simulated_deep(scene: &Scene, length: f64, depth: f64, seconds: f64) -> Vec<f
 
 /// What the sensor of a scene records.
 fn recorded(scene: Scene, seconds: f64) -> Vec<f64> {
+    recorded_at(RATE, scene, seconds)
+}
+
+fn recorded_at(rate: f64, scene: Scene, seconds: f64) -> Vec<f64> {
     let mut simulation = Simulation::new(scene, None).unwrap();
     let sensor = simulation.reference("sensor.acceleration").unwrap();
     simulation.initialize(0.0).unwrap();
     let mut value = [0.0];
-    (0..(seconds * RATE) as usize)
+    (0..(seconds * rate) as usize)
         .map(|_| {
-            simulation.step(1.0 / RATE).unwrap();
+            simulation.step(1.0 / rate).unwrap();
             simulation.reals(&[sensor], &mut value).unwrap();
             value[0]
         })
@@ -212,6 +216,23 @@ fn the_scenes_own_bearing_without_a_spall_is_healthy_although_its_elements_are_h
     assert_eq!((report.verdict, report.fault), (Verdict::Unresolved, Fault::None), "{}", report.reason);
     assert!(report.recordings[0].combs.outer.share > 0.04, "nothing repeats");
     assert!(report.reason.contains("bearing without a spall"), "{}", report.reason);
+}
+
+#[test]
+fn aliases_of_a_run_without_noise_are_no_lines_of_a_shaft() {
+    // A table's rows are samples without a filter: the 1395th harmonic of the passages is 50 007.75 Hz and folds to
+    // 7.75 Hz at 50 kHz, within the width of a line of 1 s of the 7.61 Hz at which a ball's comb would be this one.
+    let mut rig = brinell_scene_file::from_toml(include_str!("../../scenes/6205-spall-5deg.toml")).unwrap();
+    rig.contact.law = ContactLaw::Hertz;
+    let signal = recorded_at(5e4, rig.clone(), 1.0);
+    let blind = Scene { sensors: Vec::new(), defects: Vec::new(), ..rig };
+    let sized = |speed| size(&[Recording::new("made", signal.clone(), 5e4, speed).unwrap()], &blind).unwrap();
+    let right = sized(10.0);
+    assert_eq!(right.fault, Fault::Outer, "{}", right.reason);
+    assert!(!right.reason.contains("is the speed right?"), "{}", right.reason);
+    let wrong = sized(6.62);
+    assert_eq!((wrong.verdict, wrong.length_deg), (Verdict::Unresolved, None), "{}", wrong.reason);
+    assert!(wrong.reason.contains("is the speed right?"), "{}", wrong.reason);
 }
 
 #[test]

@@ -16,12 +16,18 @@ const WEAKEST: usize = 3;
 pub(super) const THERE: f64 = 3.0;
 /// By how much lines at one speed must be higher than those at another one to decide (nepers of power).
 pub(super) const CONFIRMS: f64 = 1.0;
+/// Power that counts as nothing, as a share of the signal's mean: 60 dB down. Recordings have 1e-6 and more of noise
+/// near these lines. What simulations without noise hold there are aliases: harmonics of the passages beyond half the
+/// sampling rate, which fold to any low frequency.
+const FAINT: f64 = 1e-6;
 /// Difference of the shaft's speed from the stated one at which its lines are sought, as a share.
 const NEAR: f64 = 0.015;
 
 /// Spectrum of a signal in which the shaft's own lines are sought.
 pub(super) struct ShaftLines {
     power: Vec<f64>,
+    /// Least power that counts as noise.
+    faint: f64,
     /// Hz.
     bin: f64,
     /// Distance of two speeds whose highest harmonics are in one line (Hz).
@@ -31,7 +37,8 @@ pub(super) struct ShaftLines {
 impl ShaftLines {
     pub(super) fn of(signal: &[f64], rate: f64) -> Self {
         let (power, bin) = spectrum::power(signal, rate, signal.len());
-        Self { power, bin, step: rate / (signal.len() * SHAFT) as f64 }
+        let faint = FAINT * statistics::mean(&power);
+        Self { power, faint, bin, step: rate / (signal.len() * SHAFT) as f64 }
     }
 
     /// Mean height of the lines of a speed (Hz), the most near it.
@@ -59,7 +66,7 @@ impl ShaftLines {
         let at = |f: f64| ((f / self.bin).max(0.0) as usize).min(self.power.len());
         // The main lobe of a line that lies between bins, too.
         let line = self.power[at(f - self.bin)..at(f + 2.0 * self.bin)].iter().copied().fold(0.0, f64::max);
-        let noise = statistics::median(&self.power[at(f - 0.4 * speed)..at(f + 0.4 * speed)]);
+        let noise = statistics::median(&self.power[at(f - 0.4 * speed)..at(f + 0.4 * speed)]).max(self.faint);
         if noise > 0.0 { libm::log1p(line / noise) } else { 0.0 }
     }
 }

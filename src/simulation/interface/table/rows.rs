@@ -4,7 +4,7 @@
 //! runs. A variable's index is its FMI value reference, which stays as rows are added.
 
 use super::coordinates::{Along, COORDINATES, name, stiffness_name};
-use crate::scene::{Motion, Scene};
+use crate::scene::{DefectOn, Motion, Scene, WavyBody};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};
 use crate::simulation::interface::table::builder::{Builder, RINGS};
 use crate::simulation::interface::table::variables::{Causality, Kind, Unit, Variability, Variable};
@@ -192,17 +192,19 @@ impl Builder<'_> {
         }
     }
 
-    /// Angles of rings that bear a defect or turn, and the torque on one with a defect.
+    /// Angles of rings that bear a defect or waves or turn, and the torque on an inner one that bears them.
     fn turning_outputs(&mut self) {
         if self.scene.marks_inner_ring() {
             self.ring_angle(RingName::Shaft);
-            self.output(
-                "shaft.torque",
-                "Torque of contacts at the defect on the inner ring about its centre",
-                Q::ShaftTorque,
-                Unit::NewtonMetre,
-                0.1,
-            );
+            let defects = self.scene.defects.iter().any(|defect| defect.on == DefectOn::Inner);
+            let waves = self.scene.waviness.iter().any(|waves| waves.on == WavyBody::Inner);
+            let at = match (defects, waves) {
+                (true, false) => "at the defect on",
+                (true, true) => "at the defect and the waves of",
+                (false, _) => "at the waves of",
+            };
+            let text = ["Torque of contacts ", at, " the inner ring about its centre"].concat();
+            self.output("shaft.torque", &text, Q::ShaftTorque, Unit::NewtonMetre, 0.1);
         }
         if self.scene.housing_speed.is_some() {
             self.ring_angle(RingName::Housing);
