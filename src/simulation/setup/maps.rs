@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
+use super::across::Across;
 use super::arrangement::{PlacedSurface, arranged, largest_approach, largest_force, sides, softness_of_edges};
-use super::tracks::{element_on_track, on_track, with_operating_angle};
+use super::tracks::{about, element_on_track, on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::love::Resolution;
 use crate::contact::map::{ContactMap, ContactMaps, Flanks, MapSpecification, Runner};
@@ -66,14 +67,31 @@ pub struct NeededMap<'s> {
 }
 
 impl<'s> NeededMap<'s> {
-    /// That of a spot on one raceway, as an element of the [`prepared`] bearing meets it.
-    pub(super) fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide) -> Self {
+    /// Those of a spot on one raceway, as an element of the [`prepared`] bearing meets it: one, or the slices of a
+    /// topography that varies across the groove.
+    ///
+    /// # Errors
+    /// A topography that does not reach the track.
+    pub(super) fn all(
+        scene: &Scene,
+        spot: &PlacedSurface<'s>,
+        side: RacewaySide,
+    ) -> Result<Vec<Self>, SimulationError> {
+        Ok(match Across::of(scene, spot, side)? {
+            Some(across) => across.slices().map(|place| Self::of(scene, spot, side, Some(place))).collect(),
+            None => vec![Self::of(scene, spot, side, None)],
+        })
+    }
+
+    /// That of a spot, about a place across the groove (m) where one is given.
+    fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide, place: Option<f64>) -> Self {
         let bearing = prepared(scene);
         let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
         let surface = match on_track(&spot.surface, &scene.bearing, spot.on) {
             Cow::Borrowed(_) => spot.surface.clone(),
             Cow::Owned(stretched) => Cow::Owned(stretched),
         };
+        let surface = about(surface, place);
         let flanks = Some(&*surface).filter(|_| scene.contact.flank_map);
         let (surface, moved) = match flanks.and_then(|surface| Flanks::of(surface, element, specification)) {
             Some(Flanks { surface, moved }) => (Cow::Owned(surface), moved),
@@ -96,15 +114,16 @@ impl<'s> NeededMap<'s> {
 /// that it meets, equal ones once.
 ///
 /// # Errors
-/// Defects that overlap.
+/// Defects that overlap; a topography that does not reach the track.
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let scene = &*with_operating_angle(scene);
     let mut maps: Vec<NeededMap> = Vec::new();
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
-            let map = NeededMap::of(scene, &spot, side);
-            if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
-                maps.push(map);
+            for map in NeededMap::all(scene, &spot, side)? {
+                if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
+                    maps.push(map);
+                }
             }
         }
     }
