@@ -179,20 +179,21 @@ fn contacts_beside_the_slices_of_a_topography_are_warned_of_once() {
                  [cage]\ninitial_angle_deg = -90.0\n[shaft]\nmotion = \"host\"\nspeed_hz = 1.0\n\
                  [housing]\nmotion = \"fixed\"\n";
     let host = Host::with(Resources::new(scene, Some(("pit.csv", &pit)), "resources"), "beside", true);
-    host.initialize();
+    // On the track: 15 degrees of 0.3176 mm.
+    let positions = [host.reference("shaft.y"), host.reference("shaft.z")];
+    assert_eq!((host.setup(None, 0.0, None), host.enter()), (Status::Ok, Status::Ok), "{:?}", host.lines());
+    assert_eq!((host.set(&positions, &[-2e-6, 86e-6]), host.exit()), (Status::Ok, Status::Ok), "{:?}", host.lines());
     let warnings = || {
         let lines = host.lines().into_iter();
         lines.filter(|line| line.status == Status::Warning && line.message.contains("off_track_contacts")).count()
     };
-    // On the track: 15 degrees of 0.3176 mm.
-    let positions = [host.reference("shaft.y"), host.reference("shaft.z")];
-    assert_eq!(host.set(&positions, &[-2e-6, 86e-6]), Status::Ok);
     assert_eq!(host.step(0.0, 1e-5), Status::Ok);
     let counter = [host.reference("solver.off_track_contacts")];
-    println!("{} {:?}", warnings(), host.get_integers(&counter));
+    assert_eq!((warnings(), host.get_integers(&counter).unwrap()), (0, vec![0]));
     for step in 1..4 {
         assert_eq!(host.set(&positions, &[-12e-6, 5e-6]), Status::Ok);
         assert_eq!(host.step(f64::from(step) * 1e-5, 1e-5), Status::Ok);
     }
-    println!("{} {:?}", warnings(), host.get_integers(&counter));
+    let beside = host.get_integers(&counter).unwrap()[0];
+    assert!(warnings() == 1 && beside > 1, "{beside}");
 }

@@ -74,7 +74,6 @@ fn what_does_not_vary_across_gives_what_the_line_spall_gives() {
     for law in [ContactLaw::Map, ContactLaw::Love] {
         let [topography, line] =
             [&wide, &line].map(|text| loaded(held(defect(DefectOn::Outer, 0.005), law), text, 2e-4));
-        println!("{law:?} {topography:?} {line:?}");
         for (found, expected) in topography.into_iter().zip(line) {
             assert!((found / expected - 1.0).abs() < 0.01, "{law:?}: {found} {expected}");
         }
@@ -87,8 +86,8 @@ fn slices_give_the_forces_of_law_love_beside_the_track() {
         for tilt in [-3e-4, 0.0, 3e-4] {
             let [map, love] =
                 [ContactLaw::Map, ContactLaw::Love].map(|law| loaded(held(defect(on, 0.004), law), &pit(side), tilt));
-            println!("{on:?} {tilt}: {map:?} {love:?}");
             for (map, love) in map.into_iter().zip(love) {
+                // Maps of 2e-2 of 600 N keep 1e-3 of it; the moment is what is left of larger ones.
                 assert!((map / love - 1.0).abs() < 0.01, "{on:?} {tilt}: {map} {love}");
             }
         }
@@ -145,7 +144,8 @@ fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
     let (h, count) = (0.5e-6, 800);
     let power =
         |simulation: &mut Simulation| simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap();
-    let [mut work, mut most, mut least] = [0.0, 0.0f64, f64::INFINITY];
+    let angle = |simulation: &mut Simulation| simulation.get("element[1].contact_angle.outer").unwrap();
+    let (mut work, mut forces, mut angles) = (0.0, [f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
     let mut before = power(&mut simulation);
     for _ in 0..count {
         simulation.step(h).unwrap();
@@ -154,14 +154,19 @@ fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
         let after = power(&mut simulation);
         work -= (before + 4.0 * middle + after) * h / 3.0;
         before = after;
-        let force = simulation.get("element[1].force.outer").unwrap();
-        (most, least) = (most.max(force), least.min(force));
+        for (range, value) in
+            [(&mut forces, simulation.get("element[1].force.outer").unwrap()), (&mut angles, angle(&mut simulation))]
+        {
+            *range = [range[0].min(value), range[1].max(value)];
+        }
     }
     let lost = energy(&mut simulation) - first - work;
-    println!("{lost:e} of {work:e}, forces {least} to {most}");
-    // Tolerance 1e-10 of an approach of 5 µm under 100 N, 5e-14 J, over a thousand steps that add up.
-    assert!(lost.abs() < 1e-10, "{lost:e}");
-    assert!(least < 0.9 * most, "{least} {most}");
+    println!("{lost:e} of {work:e}, forces {forces:?}, angles {angles:?}");
+    // A contact of 200 N stores 0.3 mJ. What is left is Simpson's rule over steps of the map's curvature: it changes sign
+    // with half the step, and stays with a tolerance of 1e-9 or 1e-11. The force across has moved a contact that carries
+    // 0.5 N per metre of place by 0.1 mm: without its work some 10 µJ would be missing.
+    assert!(lost.abs() < 3e-9, "{lost:e}");
+    assert!(forces[0] < 0.7 * forces[1] && angles[1] - angles[0] > 5e-3, "{forces:?} {angles:?}");
 }
 
 #[test]
@@ -193,7 +198,10 @@ fn contacts_beside_the_slices_are_counted_and_only_such_scenes_have_the_counter(
         simulation.counts(&[simulation.reference("solver.off_track_contacts").unwrap()], &mut count).unwrap();
         (count[0], simulation.get("element[1].contact_angle.outer").unwrap())
     };
-    println!("{:?} {:?} {:?}", counted(0.0), counted(1e-3), counted(2e-3));
+    // Slices reach 0.4 mm to either side; at 7.9 degrees the contact is half a millimetre beside the track.
+    let [(none, near), (some, far)] = [counted(0.0), counted(2e-3)];
+    assert!(none == 0 && near > 0.3, "{none} at {near}");
+    assert!(some > 1 && far < 0.14, "{some} at {far}");
     let trace = "arc_mm,depth_um\n-0.3,0\n-0.294,1\n0.294,1\n0.3,0\n";
     let line = Simulation::new(held(defect(DefectOn::Outer, 0.0), ContactLaw::Map), [trace]).unwrap();
     assert!(line.reference("solver.off_track_contacts").is_err());

@@ -59,9 +59,9 @@ pub(super) fn on_track<'a>(surface: &'a Surface, bearing: &Bearing, on: DefectOn
 
 /// The same as it lies about a place across the groove (m), where one is given.
 pub(super) fn about<'a>(surface: Cow<'a, Surface>, place: Option<f64>) -> Cow<'a, Surface> {
-    match (&*surface, place) {
-        (Surface::Topography(topography), Some(place)) => Cow::Owned(Surface::Topography(topography.seen_from(place))),
-        _ => surface,
+    match place {
+        Some(place) => Cow::Owned(surface.into_owned().seen_from(place)),
+        None => surface,
     }
 }
 

@@ -156,11 +156,7 @@ impl BallOnRaceway {
         }
         let on = if side == RacewaySide::Outer { DefectOn::Outer } else { DefectOn::Inner };
         let track = track_across(&with_operating_angle(scene), on);
-        let of_track = |surface| match surface {
-            Surface::Topography(topography) => Surface::Topography(topography.seen_from(track)),
-            Surface::Profile(_) => surface,
-        };
-        let surfaces = Surface::load_all(scene, profiles)?.into_iter().map(of_track);
+        let surfaces = Surface::load_all(scene, profiles)?.into_iter().map(|surface| surface.seen_from(track));
         let there: Vec<_> = scene.defects.iter().zip(surfaces).filter(|(defect, _)| defect.on == on).collect();
         let first = there.first().map_or(0.0, |(defect, _)| defect.angle);
         let arc = |at: f64| wrap(first + angle - at) * side.radius(bearing);
