@@ -23,7 +23,7 @@ from sksundae.cvode import CVODE
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "oracle"))
 from bearing import hertz_constant, tomllib
 
-TOLERANCES = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9]
+TOLERANCES = [1e-8, 1e-9, 1e-10, 1e-11]
 # Shaft x y z and rates, housing the same, sensor s s'; then u, v, w and w_z of all balls.
 BODIES = 14
 
@@ -206,7 +206,7 @@ def main():
     args = parser.parse_args()
     problem = Problem(args.scene, args.stop, args.step)
     print(f"{args.scene.stem}, {args.stop} s: the reference's own error {problem.own_error:.1e}")
-    print("at the start, shaft x y z:", problem.y0[:3], "housing.ay rms", np.std(problem.acceleration(problem.reference)))
+    print("at the start shaft.x .y .z are", *problem.y0[:3], "m")
     for name, peer in (("LSODA", problem.lsoda), ("CVODE BDF", problem.cvode)):
         for rtol in TOLERANCES:
             seconds = math.inf

@@ -146,8 +146,7 @@ impl ElementOnRaceway {
         }
     }
 
-    /// Part of the gap across the raceway, at distance t (m) from the element's middle; beyond a ball there is no end to
-    /// it.
+    /// Part of the gap across the raceway, at distance t (m) from the element's middle; without end beyond a ball.
     pub(super) fn across(&self, t: f64) -> f64 {
         match self.across {
             Across::Groove(_) if t.abs() >= self.element_radius => f64::INFINITY,

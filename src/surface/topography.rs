@@ -7,8 +7,8 @@
 //! raceway.
 //!
 //! The arc is counted from the middle of its range, which is put at the defect's angle. The axial coordinate is taken
-//! as given: 0 is the groove's bottom, and it grows with z along the groove's arc, on which balls at a contact angle run
-//! beside the bottom (1.08 mm at 15° in a 6205). Nothing is assumed symmetric. Grid lines need not be evenly spaced.
+//! as given: 0 is the groove's bottom, and it grows with z along the groove's arc; balls at a contact angle run beside
+//! the bottom, by 1.08 mm at 15° in a 6205. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
 
 use super::csv;
 use super::trace::{ARC, DEPTH};

@@ -75,7 +75,7 @@ fn solved(love: &mut LoveContact, [u, s, place]: [f64; 3]) -> Slopes {
 fn slopes_across_and_second_derivatives_are_those_of_the_approach() {
     let mut love = love(&Surface::Topography(pit()), CELLS);
     // Steps (m) by path, arc and place, and how large second derivatives are along them (1/m).
-    let (steps, scales) = ([1e-9, 1e-8, 1e-8], [1e4, 1e3, 1e3]);
+    let (steps, scales) = ([1e-9, 1e-8, 1e-8], [1e4f64, 1e3, 1e3]);
     let (mut left_out, mut compared) = (0, 0);
     for at in points(60, 0.6e-3, |_, _| 1e-6) {
         let found = solved(&mut love, at);
@@ -195,7 +195,7 @@ fn the_contact_beside_the_track_is_that_of_the_fine_grid_of_pressures() {
         let pressed = ball.pressed(force, 256).unwrap();
         let smooth = BallOnRaceway { defects: Vec::new(), ..ball.clone() }.pressed(force, 256).unwrap();
         let [value, du, _, dy] = solved(&mut love, [pressed.approach, s, place]);
-        // F = F_smooth(Δ) ∂Δ/∂u, and along the raceway and across it by the slopes.
+        // F = F_smooth(Δ) ∂Δ/∂u, and across the raceway by ∂Δ/∂η.
         let scale = (value / smooth.approach).powf(1.5);
         // The ball's gap slopes away from its middle: pressure on it pushes by what slope it has there.
         let (r, groove) = (element().element_radius, 0.52 * 7.94e-3);
@@ -203,12 +203,9 @@ fn the_contact_beside_the_track_is_that_of_the_fine_grid_of_pressures() {
         let area = pressed.cell[0] * pressed.cell[1];
         let across: f64 =
             pressed.under_pressure().map(|cell| pressed.pressure[cell] * area * slope(pressed.centre(cell)[1])).sum();
-        println!(
-            "{s:e} {place:e}: {} of the force, across {} for {}, along {}",
-            scale * du,
-            force * scale * dy,
-            across,
-            scale * ds
-        );
+        println!("{s:e} {place:e}: {} of the force, across {} for {across} N", scale * du, force * scale * dy);
+        // Some 1e-3 of the force at an edge; the pit is smooth.
+        assert!((scale * du - 1.0).abs() < 1e-3, "{s:e} {place:e}: {}", scale * du);
+        assert!((force * scale * dy - across).abs() < 2e-6 * force, "{s:e} {place:e}: {across}");
     }
 }

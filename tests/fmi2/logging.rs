@@ -174,8 +174,10 @@ fn contacts_beside_the_slices_of_a_topography_are_warned_of_once() {
     // The track is at 15 degrees; without a push along the axis balls run at the bottom.
     let scene = "name = \"beside\"\n[bearing]\ndegrees_of_freedom = 3\nelement_count = 9\n\
                  element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nradial_clearance_um = 8.0\n\
+                 youngs_modulus_gpa = 207.0\npoissons_ratio = 0.3\n\
+                 density_kg_m3 = 7800.0\nconformity_inner = 0.52\nconformity_outer = 0.52\n\
                  operating_angle_deg = 15.0\n[contact]\nlargest_force_n = 300.0\ncells = [12, 8]\n\
-                 map_accuracy = 0.2\n[defect]\nangle_deg = -90.0\nprofile = \"pit.csv\"\n\
+                 map_accuracy = 0.1\n[defect]\nangle_deg = -90.0\nprofile = \"pit.csv\"\n\
                  [cage]\ninitial_angle_deg = -90.0\n[shaft]\nmotion = \"host\"\nspeed_hz = 1.0\n\
                  [housing]\nmotion = \"fixed\"\n";
     let host = Host::with(Resources::new(scene, Some(("pit.csv", &pit)), "resources"), "beside", true);

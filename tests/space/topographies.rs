@@ -162,9 +162,9 @@ fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
     }
     let lost = energy(&mut simulation) - first - work;
     println!("{lost:e} of {work:e}, forces {forces:?}, angles {angles:?}");
-    // A contact of 200 N stores 0.3 mJ. What is left is Simpson's rule over steps of the map's curvature: it changes sign
-    // with half the step, and stays with a tolerance of 1e-9 or 1e-11. The force across has moved a contact that carries
-    // 0.5 N per metre of place by 0.1 mm: without its work some 10 µJ would be missing.
+    // A contact of 200 N stores 0.3 mJ. What is left is Simpson's rule over steps of the map's curvature: it changes
+    // sign with half the step, and stays with a tolerance of 1e-9 or 1e-11. The force across, some 10 N on a ball that
+    // it moves by micrometres, does thousands of times as much work.
     assert!(lost.abs() < 3e-9, "{lost:e}");
     assert!(forces[0] < 0.7 * forces[1] && angles[1] - angles[0] > 5e-3, "{forces:?} {angles:?}");
 }

@@ -108,7 +108,9 @@ fn only_topographies_that_balls_meet_beside_their_track_have_a_counter_of_it() {
         let in_space = if freedom == 2 { "" } else { "operating_angle_deg = 15.0\n" };
         let scene = format!(
             "name = \"met\"\n[bearing]\ndegrees_of_freedom = {freedom}\nelement_count = 9\n\
-             element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\n{in_space}[contact]\nlaw = \"love\"\n\
+             element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\n{in_space}\
+             youngs_modulus_gpa = 207.0\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800.0\nradial_clearance_um = 8.0\n\
+             conformity_inner = 0.52\nconformity_outer = 0.52\n[contact]\nlaw = \"love\"\n\
              [defect]\nprofile = \"{file}.csv\"\n[shaft]\nmotion = \"host\"\n[housing]\nmotion = \"fixed\"\n"
         );
         let path = folder.join("met.toml");

@@ -70,8 +70,7 @@ impl LoveContact {
         Ok(SecondDerivatives { uu: 0.0, us: us + uu * turn, ss: ss - uu * turn * turn })
     }
 
-    /// As [`LoveContact::solve`], of an element at `place` (m) across the raceway, with ∂Δ/∂place; 0 of a profile, which
-    /// is the same everywhere across.
+    /// As [`LoveContact::solve`], of an element at `place` (m) across the raceway, with ∂Δ/∂place; 0 of a profile.
     ///
     /// # Errors
     /// As [`LoveContact::solve`].

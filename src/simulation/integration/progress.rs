@@ -96,6 +96,19 @@ impl Progress {
         }
     }
 
+    /// All that is counted, samples of the recorder last.
+    pub(in crate::simulation) fn counts(&mut self) -> [&mut u64; 7] {
+        [
+            &mut self.steps,
+            &mut self.implicit_steps,
+            &mut self.rejected_steps,
+            &mut self.defect_lookups,
+            &mut self.truncated_contacts,
+            &mut self.off_track_contacts,
+            &mut self.due.taken,
+        ]
+    }
+
     /// Copies the progress of another state of the same model; allocates nothing.
     pub fn copy_from(&mut self, other: &Progress) {
         let Self { state, sensor_modes, cells, pushing, under_way, .. } = self;

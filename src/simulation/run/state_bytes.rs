@@ -101,16 +101,7 @@ impl State {
             flag(&mut pushes, field)?;
             *side = if pushes { 1.0 } else { -1.0 };
         }
-        let counts = [
-            &mut progress.steps,
-            &mut progress.implicit_steps,
-            &mut progress.rejected_steps,
-            &mut progress.defect_lookups,
-            &mut progress.truncated_contacts,
-            &mut progress.off_track_contacts,
-            &mut progress.due.taken,
-        ];
-        for count in counts {
+        for count in progress.counts() {
             let mut bytes = count.to_le_bytes();
             field(&mut bytes)?;
             *count = u64::from_le_bytes(bytes);

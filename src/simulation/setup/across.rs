@@ -6,7 +6,7 @@
 //! is the middle row wherever the ball runs.
 
 use super::arrangement::PlacedSurface;
-use super::maps::{map_specification, prepared};
+use super::specification::{map_specification, prepared};
 use super::tracks::{angle_of, element_on_track};
 use crate::contact::rolling::RacewaySide;
 use crate::scene::{DefectOn, DegreesOfFreedom, Scene};

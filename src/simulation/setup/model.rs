@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::across::Across;
 use super::arrangement::{PlacedSurface, arranged, sides};
-use super::maps::{NeededMap, map_fingerprint, map_specification, prepared};
+use super::maps::{NeededMap, map_fingerprint};
 use super::parameters::with_parameters;
+use super::specification::{map_specification, prepared};
 use super::tracks::{about, defect_radius, element_on_track, on_track, rolling_on_track, with_operating_angle};
 use super::waves::check_waves;
 use crate::contact::across::Slices;
