@@ -111,7 +111,8 @@ fn only_topographies_that_balls_meet_beside_their_track_have_a_counter_of_it() {
              element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\n{in_space}\
              youngs_modulus_gpa = 207.0\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800.0\nradial_clearance_um = 8.0\n\
              conformity_inner = 0.52\nconformity_outer = 0.52\n[contact]\nlaw = \"love\"\n\
-             [defect]\nprofile = \"{file}.csv\"\n[shaft]\nmotion = \"host\"\n[housing]\nmotion = \"fixed\"\n"
+             [defect]\nangle_deg = -90.0\nprofile = \"{file}.csv\"\n\
+             [shaft]\nmotion = \"host\"\nspeed_hz = 1.0\n[housing]\nmotion = \"fixed\"\n"
         );
         let path = folder.join("met.toml");
         fs::write(&path, scene).unwrap();
