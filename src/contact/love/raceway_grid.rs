@@ -191,7 +191,7 @@ impl RacewayGrid {
             self.cell[1] = 0.5 * length / (half_rows as f64 + if self.mirrored { -middle } else { middle });
         }
         let (first_row, width) = (self.first_row(), self.cell[1]);
-        self.across = (0..self.rows).map(|j| self.element.across(self.from_element(j))).collect();
+        self.across = (0..self.rows).map(|j| self.element.across(self.row_offset(j))).collect();
         let Some(surface) = &self.surface else { return };
         let (from, to) = surface.extent();
         self.first_column = ((from - self.origin) / self.cell[0]).floor() as i32;
@@ -217,7 +217,7 @@ impl RacewayGrid {
     }
 
     /// Distance (m) of the middle of a row from the element's.
-    pub(super) fn from_element(&self, row: usize) -> f64 {
+    pub(super) fn row_offset(&self, row: usize) -> f64 {
         (self.first_row() + row as f64 + 0.5) * self.cell[1] - self.place
     }
 
@@ -225,7 +225,7 @@ impl RacewayGrid {
     pub(super) fn move_across(&mut self, place: f64) {
         self.place = place;
         for row in 0..self.rows {
-            self.across[row] = self.element.across(self.from_element(row));
+            self.across[row] = self.element.across(self.row_offset(row));
         }
     }
 

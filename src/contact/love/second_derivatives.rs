@@ -236,7 +236,7 @@ impl RacewayGrid {
 
     /// The same of a row by the distance from the element's middle.
     fn across_derivatives(&self, row: usize) -> [f64; 2] {
-        self.element.across_derivatives(self.from_element(row))
+        self.element.across_derivatives(self.row_offset(row))
     }
 
     /// Derivatives of a cell's interference by path, arc and place across the raceway.
