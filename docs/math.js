@@ -2,7 +2,7 @@
 // the pages use; what it does not know stands in red.
 (() => {
   const SIGNS = {
-    alpha: "α", gamma: "γ", delta: "δ", zeta: "ζ", theta: "θ", kappa: "κ", pi: "π", rho: "ρ", sigma: "σ", tau: "τ",
+    alpha: "α", gamma: "γ", delta: "δ", zeta: "ζ", eta: "η", theta: "θ", kappa: "κ", pi: "π", rho: "ρ", sigma: "σ", tau: "τ",
     varphi: "φ", chi: "χ", psi: "ψ", omega: "ω", Delta: "Δ", Omega: "Ω", partial: "∂",
   };
   const OPERATORS = { cdot: "·", pm: "±", ge: "≥", perp: "⊥", circ: "∘", ldots: "…", sum: "∑" };

@@ -146,13 +146,22 @@ impl ElementOnRaceway {
         }
     }
 
-    /// Part of the gap across the raceway, at distance t (m) from the element's middle.
+    /// Part of the gap across the raceway, at distance t (m) from the element's middle; without end beyond a ball.
     pub(super) fn across(&self, t: f64) -> f64 {
         match self.across {
+            Across::Groove(_) if t.abs() >= self.element_radius => f64::INFINITY,
             Across::Groove(radius) => circle(self.element_radius, t)[0] - circle(radius, t)[0],
             Across::Roller { crowned: false, .. } => 0.0,
             Across::Roller { length, crowned: true } => logarithmic_depth(2.0 * self.element_radius, length, t),
         }
+    }
+
+    /// Its first and second derivative (–, 1/m) in a groove.
+    pub(super) fn across_derivatives(&self, t: f64) -> [f64; 2] {
+        let Across::Groove(radius) = self.across else { return [0.0; 2] };
+        let of = |of: f64| [circle(of, t)[1], circle_second(of, t)];
+        let ([slope, second], [groove, groove_second]) = (of(self.element_radius), of(radius));
+        [slope - groove, second - groove_second]
     }
 
     /// Length (m) on which the contact ends by itself; `None` of a ball.

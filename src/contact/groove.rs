@@ -79,10 +79,29 @@ impl Groove {
     }
 
     /// Contact angle (rad) of a contact whose normal has these parts along e and a.
-    pub fn angle(&self, [along_e, along_a]: [f64; 2]) -> f64 {
+    pub fn angle<T: Scalar>(&self, [along_e, along_a]: [T; 2]) -> T {
         match self.side {
-            RacewaySide::Inner => f64::angle_of([along_e, along_a]),
-            RacewaySide::Outer => f64::angle_of([-along_e, -along_a]),
+            RacewaySide::Inner => T::angle_of([along_e, along_a]),
+            RacewaySide::Outer => T::angle_of([-along_e, -along_a]),
+        }
+    }
+
+    /// Place η (m) across the groove of a contact at the angle α (rad): the arc from the groove's bottom, which grows
+    /// with z, −r_gi α_i inside and r_go α_o outside.
+    pub fn place_across<T: Scalar>(&self, angle: T) -> T {
+        angle * T::Plain::from(-self.run())
+    }
+
+    /// How far that place goes as a ball at this `approach` (m) moves along t, ±r_g/d.
+    pub fn run_across<T: Scalar>(&self, approach: T) -> T {
+        T::from(self.run()) / (approach + T::Plain::from(self.reach))
+    }
+
+    /// r_g (m), counted as the place across grows along t: negative outside.
+    fn run(&self) -> f64 {
+        match self.side {
+            RacewaySide::Inner => self.radius,
+            RacewaySide::Outer => -self.radius,
         }
     }
 }

@@ -22,6 +22,7 @@
 //! # Ok::<(), brinell::contact::error::ContactError>(())
 //! ```
 
+pub mod across;
 pub mod element_on_raceway;
 pub mod equivalent;
 pub mod error;

@@ -8,6 +8,7 @@
 
 use std::sync::Arc;
 
+use super::across::{ByPlace, STEP, Slices, of_map, of_three};
 use super::equivalent::{EquivalentApproach, SecondDerivatives};
 use super::error::ContactError;
 use crate::contact::love::LoveContact;
@@ -30,9 +31,6 @@ pub struct Approach<T = f64> {
     pub tangential: T,
 }
 
-/// Step (m) of the differences that stand for third derivatives of an approach.
-const STEP: f64 = 1e-9;
-
 impl<T: Scalar> Approach<T> {
     /// That of the smooth raceway at approach `u` (m).
     #[inline(always)]
@@ -45,6 +43,14 @@ impl<T: Scalar> Approach<T> {
     pub fn unsolved() -> Self {
         let nan = T::from(f64::NAN);
         Self { value: nan, radial: nan, tangential: nan, ..Self::smooth(nan) }
+    }
+
+    /// The same over a wave of this `slope` (m/rad), for an element at this `distance` (m) from the ring's centre.
+    #[inline(always)]
+    pub fn over_wave(self, slope: T, distance: T) -> Self {
+        let along = self.by_path * slope;
+        let (by_angle, tangential) = (self.by_angle + along, self.tangential - along / distance);
+        Self { by_angle, tangential, ..self }
     }
 
     /// From a potential's [Δ, Δ_u, Δ_s]: forces are its gradient. Per turning angle s = B ψ, B the radius of the body
@@ -75,13 +81,20 @@ pub struct NearMap {
     map: Arc<ContactMap>,
     bearer_radius: f64,
     knots: Vec<f64>,
+    /// Maps across the groove, of a surface that varies there.
+    slices: Option<Box<Slices>>,
 }
 
 impl NearMap {
     /// A map for a defect on a body of this radius (m).
     pub fn new(map: Arc<ContactMap>, bearer_radius: f64) -> Self {
         let knots = map.knots().iter().map(|arc| arc / bearer_radius).collect();
-        Self { map, bearer_radius, knots }
+        Self { map, bearer_radius, knots, slices: None }
+    }
+
+    /// The same with maps across the groove, which meet at the same arcs.
+    pub fn with_slices(self, slices: Slices) -> Self {
+        Self { slices: Some(Box::new(slices)), ..self }
     }
 }
 
@@ -94,13 +107,38 @@ pub struct NearLove {
     knots: Vec<f64>,
     /// Depth of each cell that is flat.
     flats: Vec<Option<f64>>,
+    /// Place across the groove (m) from which the grid's rows count, of a surface that varies there.
+    track: Option<f64>,
 }
 
 impl NearLove {
     /// A grid for a defect on a body of this radius (m).
     pub fn new(Unmapped { contact, knots, flats }: Unmapped, bearer_radius: f64) -> Self {
         let knots = knots.into_iter().map(|arc| arc / bearer_radius).collect();
-        Self { contact: Arc::new(contact), bearer_radius, knots, flats }
+        Self { contact: Arc::new(contact), bearer_radius, knots, flats, track: None }
+    }
+
+    /// The same of a surface that varies across the groove; the rows count from the place `track` (m) there.
+    pub fn across(self, track: f64) -> Self {
+        Self { track: Some(track), ..self }
+    }
+
+    /// Δ with its derivatives by path, arc and place across (m) from where rows count.
+    #[inline(never)]
+    fn solve_across<T: Scalar>(
+        &self,
+        cell: usize,
+        at: [T; 3],
+        solvers: &mut LoveSolvers,
+    ) -> Result<ByPlace<T>, ContactError> {
+        let [u, s, place] = at.map(T::value);
+        if let Some(depth) = self.flats[cell] {
+            let [zero, one] = [0.0, 1.0].map(T::from);
+            return Ok([at[0] - T::from(depth), one, zero, zero]);
+        }
+        let (found, by_place) = solvers.of(self).solve_across(u, s, place)?;
+        let second = &mut |[u, s, place]: [f64; 3]| solvers.of(self).second_derivatives_across(u, s, place);
+        of_three(at, [found.value, found.du, found.ds, by_place], second)
     }
 
     /// A function of its own, so that nothing of it is in the way of other laws.
@@ -207,13 +245,7 @@ impl NearDefect {
         match self {
             Self::Map(near) => {
                 let at = [u, angle * T::Plain::from(near.bearer_radius)];
-                let found = near.map.lookup_in(cell, at[0].value(), at[1].value())?;
-                let second = &mut |[u, s]: [f64; 2]| match curved {
-                    true => near.map.second_derivatives_in(cell, u, s).map(SecondDerivatives::rows),
-                    false => Ok([found.duu, found.dus, 0.0]),
-                };
-                let approach = T::surface(at, [found.value, found.du, found.ds], STEP, second)?;
-                Ok(Approach::of(approach, near.bearer_radius, distance))
+                Ok(Approach::of(of_map(&near.map, cell, at, curved)?, near.bearer_radius, distance))
             }
             Self::Love(near) => {
                 let at = [u, angle * T::Plain::from(near.bearer_radius)];
@@ -243,6 +275,51 @@ impl NearDefect {
                 })
             }
         }
+    }
+
+    /// Whether the approach depends on the place across the groove: [`Self::approach_across`] is to be asked then.
+    #[inline]
+    pub fn varies_across(&self) -> bool {
+        match self {
+            Self::Hertz(_) => false,
+            Self::Map(near) => near.slices.is_some(),
+            Self::Love(near) => near.track.is_some(),
+        }
+    }
+
+    /// First and last place across the groove (m) for which a surface that varies there is prepared.
+    pub fn prepared_across(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Map(NearMap { slices: Some(slices), .. }) => Some(slices.ends()),
+            _ => None,
+        }
+    }
+
+    /// As [`Self::approach`] at the place `across` (m) the groove, with ∂Δ/∂across.
+    ///
+    /// # Errors
+    /// As there.
+    #[inline(never)]
+    pub fn approach_across<T: Scalar>(
+        &self,
+        cell: usize,
+        [u, across]: [T; 2],
+        (angle, distance): (T, T),
+        curved: bool,
+        solvers: &mut LoveSolvers,
+    ) -> Result<(Approach<T>, T), ContactError> {
+        let arc = |radius: f64| angle * T::Plain::from(radius);
+        let ([value, du, ds, by_across], radius) = match self {
+            Self::Map(near @ NearMap { slices: Some(slices), .. }) => {
+                (slices.approach(cell, [u, arc(near.bearer_radius), across], curved)?, near.bearer_radius)
+            }
+            Self::Love(near) if near.track.is_some() => {
+                let place = across - T::Plain::from(near.track.unwrap_or_default());
+                (near.solve_across(cell, [u, arc(near.bearer_radius), place], solvers)?, near.bearer_radius)
+            }
+            _ => return Ok((self.approach(cell, u, angle, distance, curved, solvers)?, T::from(0.0))),
+        };
+        Ok((Approach::of([value, du, ds], radius, distance), by_across))
     }
 
     /// Whether contacts are solved on a grid inside the step.

@@ -42,6 +42,21 @@ pub enum SimulationError {
         /// Degrees of freedom.
         given: usize,
     },
+    /// A topography beside which balls run.
+    #[error(
+        "defect.profile: the topography of the {ring} ring reaches from {first_mm:.4} to {last_mm:.4} mm across the \
+         groove (axial_mm), and the track at bearing.operating_angle_deg is at {track_mm:.4} mm: it must lie within"
+    )]
+    OffTopography {
+        /// "inner" or "outer".
+        ring: &'static str,
+        /// Where the track is, from the groove's bottom (mm).
+        track_mm: f64,
+        /// First axial coordinate of the topography (mm).
+        first_mm: f64,
+        /// Last axial coordinate (mm).
+        last_mm: f64,
+    },
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {} s: it must be finite and above 0", Plain(*.0))]
     CommunicationStep(f64),

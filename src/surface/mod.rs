@@ -100,6 +100,14 @@ impl Surface {
         Ok(scaled)
     }
 
+    /// As it lies about another place across the raceway (m), which is 0 then; a profile is the same everywhere across.
+    pub fn seen_from(self, axial: f64) -> Self {
+        match self {
+            Self::Profile(_) => self,
+            Self::Topography(topography) => Self::Topography(topography.seen_from(axial)),
+        }
+    }
+
     /// First and last arc (m) of the defect.
     pub fn extent(&self) -> (f64, f64) {
         match self {

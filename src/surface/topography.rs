@@ -7,7 +7,8 @@
 //! raceway.
 //!
 //! The arc is counted from the middle of its range, which is put at the defect's angle. The axial coordinate is taken
-//! as given: 0 is the groove's bottom. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
+//! as given: 0 is the groove's bottom, and it grows with z along the groove's arc; balls at a contact angle run beside
+//! the bottom, by 1.08 mm at 15° in a 6205. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
 
 use super::trace::{ARC, DEPTH};
 use super::{Interval, Profile, SurfaceError, csv};
@@ -77,6 +78,25 @@ impl Topography {
     /// With every depth multiplied by `factor`.
     pub(super) fn scaled(&self, factor: f64) -> Self {
         Self { depths: self.depths.iter().map(|depth| factor * depth).collect(), ..self.clone() }
+    }
+
+    /// With every arc multiplied by `factor`.
+    pub(crate) fn stretched(&self, factor: f64) -> Self {
+        Self { arcs: self.arcs.iter().map(|arc| factor * arc).collect(), ..self.clone() }
+    }
+
+    /// As it lies about another place across the raceway (m), which is 0 then.
+    pub fn seen_from(&self, axial: f64) -> Self {
+        Self { axials: self.axials.iter().map(|at| at - axial).collect(), ..self.clone() }
+    }
+
+    /// Whether the depth is not the same everywhere between two axial coordinates (m).
+    pub(crate) fn varies_across(&self, [from, to]: [f64; 2]) -> bool {
+        let (width, last) = (self.axials.len(), self.axials.len() - 1);
+        let lines = touched(&self.axials, [from.max(self.axials[0]), to.min(self.axials[last])]);
+        let is_smooth = |j: usize| self.depths.iter().skip(j).step_by(width).all(|&depth| depth == 0.0);
+        let ends = (from < self.axials[0] && !is_smooth(0)) || (to > self.axials[last] && !is_smooth(last));
+        ends || self.depths.chunks_exact(width).any(|row| lines.clone().any(|j| row[j] != row[lines.start]))
     }
 
     /// Arcs of the grid, ascending (m).

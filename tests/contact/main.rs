@@ -1,6 +1,7 @@
 //! Contacts near a defect: grids, maps, forces and pressures against closed forms, finer grids and each other.
 
 mod accuracy;
+mod across;
 mod allocations;
 #[path = "../support/counting.rs"]
 mod counting;

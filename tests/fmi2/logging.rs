@@ -3,6 +3,7 @@
 use crate::two::{Call, Host, Resources};
 use brinell_fmi::fmi2::*;
 use std::ffi::CString;
+use std::fmt::Write;
 use std::ptr;
 
 fn switch(host: &Host, on: bool, categories: &[&str]) -> Status {
@@ -161,4 +162,40 @@ fn contacts_that_a_shoulder_cuts_are_warned_of_once() {
     let cut = host.get_integers(&[host.reference("solver.truncated_contacts")]).unwrap()[0];
     assert!(cut > 1, "{cut}");
     assert_eq!(warnings(&host), 1);
+}
+
+#[test]
+fn contacts_beside_the_slices_of_a_topography_are_warned_of_once() {
+    let mut pit = String::from("arc_mm,axial_mm,depth_um\n");
+    for (i, j) in (-20..=20).flat_map(|i| (0..=20).map(move |j| (i, j))) {
+        let depth = if i32::abs(i) < 20 && (1..20).contains(&j) { 2 } else { 0 };
+        writeln!(pit, "{:.3},{:.3},{depth}", 0.01 * f64::from(i), 0.2 + 0.1 * f64::from(j)).unwrap();
+    }
+    // The track is at 15 degrees; without a push along the axis balls run at the bottom.
+    let scene = "name = \"beside\"\n[bearing]\ndegrees_of_freedom = 3\nelement_count = 9\n\
+                 element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nradial_clearance_um = 8.0\n\
+                 youngs_modulus_gpa = 207.0\npoissons_ratio = 0.3\n\
+                 density_kg_m3 = 7800.0\nconformity_inner = 0.52\nconformity_outer = 0.52\n\
+                 operating_angle_deg = 15.0\n[contact]\nlargest_force_n = 300.0\ncells = [12, 8]\n\
+                 map_accuracy = 0.1\n[defect]\nangle_deg = -90.0\nprofile = \"pit.csv\"\n\
+                 [cage]\ninitial_angle_deg = -90.0\n[shaft]\nmotion = \"host\"\nspeed_hz = 1.0\n\
+                 [housing]\nmotion = \"fixed\"\n";
+    let host = Host::with(Resources::new(scene, Some(("pit.csv", &pit)), "resources"), "beside", true);
+    // On the track: 15 degrees of 0.3176 mm.
+    let positions = [host.reference("shaft.y"), host.reference("shaft.z")];
+    assert_eq!((host.setup(None, 0.0, None), host.enter()), (Status::Ok, Status::Ok), "{:?}", host.lines());
+    assert_eq!((host.set(&positions, &[-2e-6, 86e-6]), host.exit()), (Status::Ok, Status::Ok), "{:?}", host.lines());
+    let warnings = || {
+        let lines = host.lines().into_iter();
+        lines.filter(|line| line.status == Status::Warning && line.message.contains("off_track_contacts")).count()
+    };
+    assert_eq!(host.step(0.0, 1e-5), Status::Ok);
+    let counter = [host.reference("solver.off_track_contacts")];
+    assert_eq!((warnings(), host.get_integers(&counter).unwrap()), (0, vec![0]));
+    for step in 1..4 {
+        assert_eq!(host.set(&positions, &[-12e-6, 5e-6]), Status::Ok);
+        assert_eq!(host.step(f64::from(step) * 1e-4 - 9e-5, 1e-4), Status::Ok);
+    }
+    let beside = host.get_integers(&counter).unwrap()[0];
+    assert!(warnings() == 1 && beside > 1, "{beside}");
 }

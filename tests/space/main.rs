@@ -10,6 +10,7 @@ mod derivatives;
 mod laws;
 mod motion;
 mod statics;
+mod topographies;
 
 use brinell::scene::{Bearing, DegreesOfFreedom, Ring, Scene, SceneBuilder};
 use brinell::simulation::Simulation;

@@ -7,6 +7,7 @@ use anyhow::Result;
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::DefectOn;
+use brinell::simulation::setup::track_across;
 use brinell::surface::Surface;
 use serde_json::{Value, json};
 
@@ -41,7 +42,7 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
     let defects = scene.defects.iter().zip(surfaces).map(|(defect, surface)| {
         let profile = match surface {
             Surface::Profile(profile) => profile,
-            Surface::Topography(topography) => topography.profile_at(0.0),
+            Surface::Topography(topography) => topography.profile_at(track_across(model.simulation.scene(), defect.on)),
         };
         let every = profile.points().len().div_ceil(POINTS);
         let (on, element) = match defect.on {

@@ -97,6 +97,34 @@ fn both_versions_have_the_same_variables_by_the_same_names() {
 }
 
 #[test]
+fn only_topographies_that_balls_meet_beside_their_track_have_a_counter_of_it() {
+    let folder = common::folder("topography");
+    let depths = "arc_mm,axial_mm,depth_um\n-0.1,0.8,0\n-0.1,1.4,0\n0.1,0.8,0\n0.1,1.4,0\n";
+    fs::write(folder.join("topography.csv"), depths).unwrap();
+    fs::write(folder.join("trace.csv"), "arc_mm,depth_um\n-0.1,0\n0.1,0\n").unwrap();
+    for (freedom, file, counts) in
+        [(3, "topography", true), (5, "topography", true), (2, "topography", false), (3, "trace", false)]
+    {
+        let in_space = if freedom == 2 { "" } else { "operating_angle_deg = 15.0\n" };
+        let scene = format!(
+            "name = \"met\"\n[bearing]\ndegrees_of_freedom = {freedom}\nelement_count = 9\n\
+             element_diameter_mm = 7.94\npitch_diameter_mm = 39.04\n{in_space}\
+             youngs_modulus_gpa = 207.0\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800.0\nradial_clearance_um = 8.0\n\
+             conformity_inner = 0.52\nconformity_outer = 0.52\n[contact]\nlaw = \"love\"\n\
+             [defect]\nangle_deg = -90.0\nprofile = \"{file}.csv\"\n\
+             [shaft]\nmotion = \"host\"\nspeed_hz = 1.0\n[housing]\nmotion = \"fixed\"\n"
+        );
+        let path = folder.join("met.toml");
+        fs::write(&path, scene).unwrap();
+        let model = Model::read(&path).unwrap();
+        for version in [Version::Fmi2, Version::Fmi3] {
+            let written = model_description(&model, version).unwrap();
+            assert_eq!(written.contains("solver.off_track_contacts"), counts, "{freedom} {file} {version:?}");
+        }
+    }
+}
+
+#[test]
 fn the_table_keeps_the_rules_that_the_writer_relies_on() {
     for scene in common::scenes() {
         let model = Model::read(&scene).unwrap();

@@ -60,6 +60,8 @@ pub struct LoveContact {
 #[derive(Debug, Clone)]
 pub(super) struct Layer {
     pub(super) grid: RacewayGrid,
+    /// Rows on one side of an element that hold its contacts.
+    half_rows: usize,
     softness: Option<Softness>,
     pub(super) solver: ActiveSet,
     interference: Vec<f64>,
@@ -314,7 +316,8 @@ impl Layer {
         let solver = solver_for(&grid, largest_approach, softness)?;
         let [interference, slopes, unit] = [const { Vec::new() }; 3];
         let energy = Energy::default();
-        let mut layer = Self { grid, softness, solver, interference, slopes, first: 0, unit, energy };
+        let half_rows = grid.half_rows();
+        let mut layer = Self { grid, half_rows, softness, solver, interference, slopes, first: 0, unit, energy };
         layer.make_room(largest_approach);
         Ok(layer)
     }
@@ -325,6 +328,17 @@ impl Layer {
         self.interference.reserve(rows * columns);
         self.slopes.reserve(columns);
         self.solver.make_room();
+    }
+
+    /// Puts the element at another place across the raceway (m); the grid is widened until its contacts are on it.
+    pub(super) fn move_across(&mut self, place: f64, largest_approach: f64) -> Result<(), ContactError> {
+        let needed = self.half_rows + (place.abs() / self.grid.cell()[1]).ceil() as usize;
+        if self.grid.half_rows() < needed {
+            self.grid.set_rows(needed);
+            self.solver = solver_for(&self.grid, largest_approach, self.softness)?;
+        }
+        self.grid.move_across(place);
+        Ok(())
     }
 
     fn energy(&mut self, u: f64, s: f64, largest_approach: f64) -> Result<Energy, ContactError> {

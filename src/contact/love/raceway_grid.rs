@@ -108,13 +108,16 @@ fn columns_at_edges(surface: &mut Surface, length: f64) -> Columns {
 /// Cells fixed to the raceway.
 #[derive(Debug, Clone)]
 pub struct RacewayGrid {
-    element: ElementOnRaceway,
+    pub(super) element: ElementOnRaceway,
     cell: [f64; 2],
     origin: f64,
     rows: usize,
     mirrored: bool,
     /// Whether the groove's bottom runs along the middle of a row and not between two.
     middle_row: bool,
+    /// Where the element is across the raceway (m).
+    place: f64,
+    /// Gap of each row across the raceway.
     across: Vec<f64>,
     first_column: i32,
     edges: Vec<SharpBorder>,
@@ -160,6 +163,7 @@ impl RacewayGrid {
             rows: 0,
             mirrored,
             middle_row: false,
+            place: 0.0,
             across: Vec::new(),
             first_column: 0,
             edges,
@@ -186,10 +190,8 @@ impl RacewayGrid {
             let middle = if self.middle_row { 0.5 } else { 0.0 };
             self.cell[1] = 0.5 * length / (half_rows as f64 + if self.mirrored { -middle } else { middle });
         }
-        // Lower side of row 0, in rows.
-        let first_row = -(below as f64) - if self.middle_row { 0.5 } else { 0.0 };
-        let width = self.cell[1];
-        self.across = (0..self.rows).map(|j| self.element.across((first_row + j as f64 + 0.5) * width)).collect();
+        let (first_row, width) = (self.first_row(), self.cell[1]);
+        self.across = (0..self.rows).map(|j| self.element.across(self.row_offset(j))).collect();
         let Some(surface) = &self.surface else { return };
         let (from, to) = surface.extent();
         self.first_column = ((from - self.origin) / self.cell[0]).floor() as i32;
@@ -206,6 +208,25 @@ impl RacewayGrid {
         }
         self.raised = self.depth.iter().fold(0.0_f64, |m, &d| m.max(-d));
         self.deepest = self.depth.iter().fold(0.0_f64, |m, &d| m.max(d));
+    }
+
+    /// Lower side of row 0, in rows.
+    fn first_row(&self) -> f64 {
+        let below = if self.mirrored { 0 } else { self.half_rows() };
+        -(below as f64) - if self.middle_row { 0.5 } else { 0.0 }
+    }
+
+    /// Distance (m) of the middle of a row from the element's.
+    pub(super) fn row_offset(&self, row: usize) -> f64 {
+        (self.first_row() + row as f64 + 0.5) * self.cell[1] - self.place
+    }
+
+    /// Puts the element at another place across a raceway that is not mirrored (m).
+    pub(super) fn move_across(&mut self, place: f64) {
+        self.place = place;
+        for row in 0..self.rows {
+            self.across[row] = self.element.across(self.row_offset(row));
+        }
     }
 
     /// The same cells on the raceway without its defect.
@@ -304,12 +325,6 @@ impl RacewayGrid {
     pub fn widest(&self, u: f64) -> usize {
         let reach = (2.0 * (u + self.raised).max(0.0) / self.element.curvatures()[0]).sqrt();
         (2.0 * reach / self.cell[0]).ceil() as usize + 2
-    }
-
-    /// First and second derivative (–, 1/m) of the gap in a column by t = x − s, the element at arc `s` (m).
-    pub(super) fn gap_derivatives(&self, column: i32, s: f64) -> [f64; 2] {
-        let t = self.centre(column) - s;
-        [self.element.along(t)[1], self.element.along_second(t)]
     }
 
     fn depth_row(&self, row: usize) -> &[f64] {

@@ -95,6 +95,24 @@ impl SmoothScale {
         }
     }
 
+    /// Slopes of the equivalent approach of an energy `w` that has these slopes.
+    pub(super) fn slopes<const N: usize>(&self, w: f64, slopes: [f64; N]) -> [f64; N] {
+        if w <= 0.0 {
+            return [0.0; N];
+        }
+        let scale = self.local(w);
+        slopes.map(|slope| scale.slope * (scale.per_w * slope))
+    }
+
+    /// Its second derivatives, of an energy that has these slopes and second derivatives.
+    pub(super) fn second<const N: usize>(&self, w: f64, by: [f64; N], second: [[f64; N]; N]) -> [[f64; N]; N] {
+        if w <= 0.0 {
+            return [[0.0; N]; N];
+        }
+        let scale = self.local(w);
+        std::array::from_fn(|i| std::array::from_fn(|j| scale.second_derivative(second[i][j], by[i], by[j])))
+    }
+
     fn local(&self, w: f64) -> LocalScale {
         let v = pow(w, self.power);
         let per_w = self.power * v / w;

@@ -65,6 +65,8 @@ pub(in crate::dynamics) struct ContactForce<T> {
     pub(in crate::dynamics) force: [T; 2],
     /// Magnitude of the force (N).
     pub(in crate::dynamics) magnitude: T,
+    /// Force (N) of the smooth contact at the equivalent approach, which the slopes of that share out.
+    pub(in crate::dynamics) smooth: T,
 }
 
 impl<T: Number> InnerGap<T> {
@@ -156,14 +158,33 @@ impl<T: Scalar> Near<T> {
         [closing, turning]: [T; 2],
         frames: &Frames<T>,
     ) -> ContactForce<T> {
-        let Approach { value, by_path, by_angle, radial, tangential } = self.approach;
-        let rate = by_path * closing + by_angle * (turning - frames.of(self.frame).speed);
+        let rate = self.rate([closing, turning], frames);
+        self.force_at(law, film, rate)
+    }
+
+    /// Δ̇ (m/s) where approach and angle change at these rates (m/s, rad/s).
+    #[inline(always)]
+    pub(in crate::dynamics) fn rate(&self, [closing, turning]: [T; 2], frames: &Frames<T>) -> T {
+        let Approach { by_path, by_angle, .. } = self.approach;
+        by_path * closing + by_angle * (turning - frames.of(self.frame).speed)
+    }
+
+    /// The force where the approach changes at this `rate` (m/s).
+    #[inline(always)]
+    pub(in crate::dynamics) fn force_at(
+        &self,
+        law: &CompliantContact,
+        film: Option<&SqueezeFilm<T>>,
+        rate: T,
+    ) -> ContactForce<T> {
+        let Approach { value, radial, tangential, .. } = self.approach;
         let (force, part) = normal_force(law, film, value, rate);
         ContactForce {
             approach: value,
             part,
             force: [force * radial, force * tangential],
             magnitude: force * (radial * radial + tangential * tangential).sqrt(),
+            smooth: force,
         }
     }
 }
@@ -187,6 +208,34 @@ impl Model {
             return self.near_own_defect(side, at, frames, shortcuts);
         }
         at.over(&self.raceway(side).defects, at.cells[0], frames, shortcuts)
+    }
+
+    /// As [`Self::near`] in space, at the place `across` (m) the groove, with ∂Δ/∂across.
+    ///
+    /// # Errors
+    /// As there.
+    #[inline(never)]
+    pub(in crate::dynamics) fn near_across<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        at: &Meeting<T>,
+        across: T,
+        frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> Result<(Near<T>, T), ContactError> {
+        let defects = &self.raceway(side).defects;
+        let direction = at.direction - frames.of(defects.frame).angle;
+        let (place, love) = ([at.u, across], &mut shortcuts.love);
+        let (approach, by_across) =
+            defects.approach_across(at.cells[0], place, direction, at.distance, at.curved, love)?;
+        let ring = Near { approach, frame: defects.frame };
+        if at.cells[1] != SMOOTH {
+            let own = self.near(side, &Meeting { cells: [SMOOTH, at.cells[1]], ..*at }, frames, shortcuts)?;
+            if own.approach.value.value() < ring.approach.value.value() {
+                return Ok((own, T::from(0.0)));
+            }
+        }
+        Ok((ring, by_across))
     }
 
     /// As [`Self::near`], the smooth raceway included; NaN where the contact law has no answer.

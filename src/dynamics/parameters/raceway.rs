@@ -248,9 +248,32 @@ impl Defects {
             SMOOTH | WAVY => Approach::smooth(u),
             _ => self.over_defect(cell, u, direction, distance, curved, solvers)?,
         };
-        let along = found.by_path * slope;
-        let (by_angle, tangential) = (found.by_angle + along, found.tangential - along / distance);
-        Ok(Approach { by_angle, tangential, ..found })
+        Ok(found.over_wave(slope, distance))
+    }
+
+    /// As [`Self::approach`] at the place `across` (m) the groove, with ∂Δ/∂across.
+    pub fn approach_across<T: Scalar>(
+        &self,
+        cell: u32,
+        [u, across]: [T; 2],
+        direction: T,
+        distance: T,
+        curved: bool,
+        solvers: &mut LoveSolvers,
+    ) -> Result<(Approach<T>, T), ContactError> {
+        let Some(defect) = self.holding(cell) else { return Ok((Approach::smooth(u), T::from(0.0))) };
+        let [height, slope] = self.waves.as_ref().map_or([T::from(0.0); 2], |waves| waves.height(direction));
+        let (angle, of_defect) = (direction.moved_to(defect.angle(direction.value())), (cell - defect.first) as usize);
+        let at = ([u + height, across], (angle, distance));
+        let (found, by_across) = defect.surface.approach_across(of_defect, at.0, at.1, curved, solvers)?;
+        Ok((found.over_wave(slope, distance), by_across))
+    }
+
+    /// The surface around the defect of a cell, if it varies across the groove.
+    #[inline]
+    pub fn varying_across(&self, cell: u32) -> Option<&NearDefect> {
+        let surfaces = self.defects.iter().filter(|defect| defect.holds(cell)).map(|defect| &defect.surface);
+        surfaces.into_iter().find(|surface| surface.varies_across())
     }
 
     /// The defect that a cell belongs to.

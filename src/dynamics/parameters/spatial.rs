@@ -133,7 +133,19 @@ impl Space {
     /// θ_s − |α| − a/r_g (rad) of a contact at the angle α (rad) under a force (N).
     pub fn shoulder_margin(&self, side: usize, angle: f64, force: f64) -> f64 {
         let ends = self.shoulders[side].unwrap_or(0.0);
-        ends - angle.abs() - self.half_lengths[side] * libm::cbrt(force.max(0.0)) / self.grooves[side].radius
+        ends - angle.abs() - self.half_length(side, force) / self.grooves[side].radius
+    }
+
+    /// Half-length (m) of the ellipse of a contact across the groove under a force (N).
+    fn half_length(&self, side: usize, force: f64) -> f64 {
+        self.half_lengths[side] * libm::cbrt(force.max(0.0))
+    }
+
+    /// Whether a contact at the angle α (rad) under a force (N) is beside places across the groove, given by their
+    /// `ends` (m), by more than a quarter of its ellipse's half-length.
+    pub fn is_beside(&self, ends: [f64; 2], side: usize, angle: f64, force: f64) -> bool {
+        let place = self.grooves[side].place_across(angle);
+        (ends[0] - place).max(place - ends[1]) > 0.25 * self.half_length(side, force)
     }
 
     /// 1/inertia of a coordinate (1/kg, 1/(kg m²)); 0 where forces move nothing.

@@ -205,4 +205,10 @@ impl<T: Number> Place<T> {
         let force = plus(pressed, times(self.contact.around, around));
         OnBall { force, moment: cross(force, self.q) }
     }
+
+    /// What a contact exerts with a force (N) along t beside another.
+    pub(in crate::dynamics) fn exerts_across(&self, other: OnBall<T>, across: T) -> OnBall<T> {
+        let force = plus(other.force, times(self.contact.across, across));
+        OnBall { force, moment: cross(force, self.q) }
+    }
 }

@@ -1,10 +1,11 @@
 //! The contacts of one ball with both grooves, near defects or not, in single numbers with any derivatives.
 
 use super::ball::{Ball, BallState, OnBall, Place, Seen, axis_of};
-use crate::contact::groove::Axis;
+use crate::contact::error::ContactError;
+use crate::contact::groove::{Axis, dot};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::contacts::{Meeting, Shortcuts};
+use crate::dynamics::contacts::{Meeting, Near, Shortcuts};
 use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space};
 use crate::numerics::number::Scalar;
 
@@ -149,11 +150,44 @@ impl Model {
             RacewaySide::Inner => contact.turning(place.velocity),
             RacewaySide::Outer => at.omega,
         };
-        let near = self.near_or_unsolved(side, &meeting, &at.frames, shortcuts);
-        let found = near.force(law, None, [closing, turning], &at.frames);
-        let on_ball = place.exerts(found.force, found.magnitude, damping);
+        let near = self.near_ball(side, space, &meeting, &place, &at.frames, shortcuts);
+        let (near, by_across) = near.unwrap_or((Near::unsolved(), None));
+        let mut rate = near.rate([closing, turning], &at.frames);
+        // ∂Δ/∂t: how far the contact goes across the groove as the ball moves along t, times ∂Δ/∂η.
+        let by_t = by_across.map(|by_across| by_across * space.grooves[side as usize].run_across(contact.approach));
+        if let Some(by_t) = by_t {
+            rate += by_t * dot(contact.across, place.velocity);
+        }
+        let found = near.force_at(law, None, rate);
+        let mut on_ball = place.exerts(found.force, found.magnitude, damping);
+        if let Some(by_t) = by_t {
+            on_ball = place.exerts_across(on_ball, -(found.smooth * by_t));
+        }
         let [approach, rate] = found.part;
         BallContact { place, on_ball, approach, rate, magnitude: found.magnitude, frame: Some(near.frame) }
+    }
+
+    /// The surface near a defect, and ∂Δ/∂η of one that varies across the groove.
+    ///
+    /// # Errors
+    /// Where the contact law has no answer.
+    #[inline(always)]
+    pub(super) fn near_ball<T: Scalar>(
+        &self,
+        side: RacewaySide,
+        space: &Space,
+        meeting: &Meeting<T>,
+        place: &Place<T>,
+        frames: &Frames<T>,
+        shortcuts: &mut Shortcuts,
+    ) -> Result<(Near<T>, Option<T>), ContactError> {
+        if self.raceway(side).defects.varying_across(meeting.cells[0]).is_none() {
+            return self.near(side, meeting, frames, shortcuts).map(|near| (near, None));
+        }
+        let groove = &space.grooves[side as usize];
+        let across = groove.place_across(groove.angle(place.contact.meridian));
+        let (near, by_across) = self.near_across(side, meeting, across, frames, shortcuts)?;
+        Ok((near, Some(by_across)))
     }
 
     /// Where a ball meets a defect: outside in its own direction, inside in that from the inner ring's axis.

@@ -54,12 +54,14 @@ impl Model {
     /// Keeps why a contact near a defect has no answer, if it is the cause.
     #[cold]
     pub(super) fn note_unsolved(&self, cells: [[u32; 2]; 2], at: &BallMotion, found: &BallForces, forces: &mut Forces) {
+        let Some(space) = &self.space else { return };
         for side in [RacewaySide::Inner, RacewaySide::Outer] {
-            let meeting = self.ball_meeting(side, cells[side as usize], at, &found.contacts[side as usize].place);
+            let place = &found.contacts[side as usize].place;
+            let meeting = self.ball_meeting(side, cells[side as usize], at, place);
             if cells[side as usize] == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
                 continue;
             }
-            if let Err(cause) = self.near(side, &meeting, &at.frames, &mut forces.shortcuts) {
+            if let Err(cause) = self.near_ball(side, space, &meeting, place, &at.frames, &mut forces.shortcuts) {
                 let angle = self.angle_from_defect(side, &meeting, &at.frames);
                 let [inner, outer] = &at.rings;
                 let offset = [0, 1].map(|k| outer.position[k] - inner.position[k]);

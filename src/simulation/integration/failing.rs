@@ -3,6 +3,7 @@
 
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
+use crate::contact::near_defect::NearDefect;
 use crate::dynamics::contacts::UnsolvedContact;
 use crate::dynamics::parameters::{Layout, Model};
 use crate::simulation::integration::methods::{ExplicitMethod, explicit, rodas};
@@ -97,7 +98,8 @@ pub(in crate::simulation) fn check_rings(problem: Problem, tau: f64, progress: &
 /// Largest contact angle (degrees): no groove goes on so far.
 const STEEPEST: f64 = 80.0;
 
-/// In space no ball may climb out of its groove. Counts ends of steps at which a shoulder cuts a contact.
+/// In space no ball may climb out of its groove. Counts ends of steps at which a shoulder cuts a contact, and those at
+/// which one is beside what is prepared of a surface that varies across the groove.
 pub(super) fn check_angles(
     workspace: &Workspace,
     model: &Model,
@@ -106,7 +108,7 @@ pub(super) fn check_angles(
 ) -> Result<(), StepError> {
     let Some(space) = &model.space else { return Ok(()) };
     let contacts = &workspace.forces.contacts;
-    let mut is_cut = false;
+    let (mut is_cut, mut is_beside) = (false, false);
     for (j, side) in (0..model.element_count).flat_map(|j| [(j, 0), (j, 1)]) {
         let pushes = [&contacts.inner, &contacts.outer][side][j] > 0.0;
         if pushes && contacts.meridians[2 * side][j].abs() < STEEPEST_COSINE {
@@ -114,8 +116,15 @@ pub(super) fn check_angles(
             return Err(StepError::TooSteep { element: j + 1, angle_deg, limit_deg: STEEPEST, since });
         }
         is_cut |= pushes && space.shoulders[side].is_some() && contacts.shoulder_margin(space, j, side) < 0.0;
+        let cell = [&progress.cells.inner, &progress.cells.outer][side][j];
+        let surface = [&model.inner, &model.outer][side].defects.varying_across(cell);
+        if let Some(ends) = surface.and_then(NearDefect::prepared_across).filter(|_| pushes) {
+            let force = [&contacts.inner, &contacts.outer][side][j];
+            is_beside |= space.is_beside(ends, side, contacts.contact_angle(space, j, side), force);
+        }
     }
     progress.truncated_contacts += u64::from(is_cut);
+    progress.off_track_contacts += u64::from(is_beside);
     Ok(())
 }
 

@@ -54,6 +54,8 @@ pub struct Progress {
     pub defect_lookups: u64,
     /// Ends of steps at which a shoulder cuts a contact.
     pub truncated_contacts: u64,
+    /// Ends of steps at which a contact is beside what is prepared of a surface that varies across the groove.
+    pub off_track_contacts: u64,
 }
 
 impl Progress {
@@ -76,6 +78,7 @@ impl Progress {
             rejected_steps: 0,
             defect_lookups: 0,
             truncated_contacts: 0,
+            off_track_contacts: 0,
         }
     }
 
@@ -88,8 +91,22 @@ impl Progress {
             Count::ContactSolves if solves_grids => self.defect_lookups,
             Count::MapLookups if !solves_grids => self.defect_lookups,
             Count::TruncatedContacts => self.truncated_contacts,
+            Count::OffTrackContacts => self.off_track_contacts,
             Count::ContactSolves | Count::MapLookups => 0,
         }
+    }
+
+    /// All that is counted, samples of the recorder last.
+    pub(in crate::simulation) fn counts(&mut self) -> [&mut u64; 7] {
+        [
+            &mut self.steps,
+            &mut self.implicit_steps,
+            &mut self.rejected_steps,
+            &mut self.defect_lookups,
+            &mut self.truncated_contacts,
+            &mut self.off_track_contacts,
+            &mut self.due.taken,
+        ]
     }
 
     /// Copies the progress of another state of the same model; allocates nothing.
@@ -104,6 +121,6 @@ impl Progress {
         (self.due, self.mean_force) = (other.due, other.mean_force);
         (self.steps, self.implicit_steps) = (other.steps, other.implicit_steps);
         (self.rejected_steps, self.defect_lookups) = (other.rejected_steps, other.defect_lookups);
-        self.truncated_contacts = other.truncated_contacts;
+        (self.truncated_contacts, self.off_track_contacts) = (other.truncated_contacts, other.off_track_contacts);
     }
 }

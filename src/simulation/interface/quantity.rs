@@ -87,6 +87,7 @@ pub enum Count {
     ContactSolves,
     MapLookups,
     TruncatedContacts,
+    OffTrackContacts,
 }
 
 /// What a host may set before the start.

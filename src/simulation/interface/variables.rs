@@ -7,6 +7,7 @@ use super::{Inputs, dependencies, table};
 use crate::scene::{DegreesOfFreedom, Scene, nearest};
 use crate::simulation::VariableError;
 use crate::simulation::interface::table::{Causality, Dependencies, Kind, Variable};
+use crate::surface::Surface;
 use std::sync::Arc;
 
 /// The variables of one scene; shared by clones, as all follows from the table.
@@ -19,9 +20,9 @@ pub(in crate::simulation) struct Interface {
 }
 
 impl Interface {
-    /// Those of a scene.
-    pub(in crate::simulation) fn of(scene: &Scene) -> Self {
-        let (table, quantities): (Vec<_>, Vec<_>) = table::rows(scene).into_iter().unzip();
+    /// Those of a scene with these surfaces of its defects.
+    pub(in crate::simulation) fn of(scene: &Scene, surfaces: &[Surface]) -> Self {
+        let (table, quantities): (Vec<_>, Vec<_>) = table::rows(scene, surfaces).into_iter().unzip();
         let access = table.iter().zip(&quantities).map(|(row, &quantity)| Access::new(row, quantity)).collect();
         let count = table.iter().take_while(|v| v.causality == Causality::Input).count();
         let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;

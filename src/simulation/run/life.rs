@@ -81,7 +81,7 @@ impl Simulation {
         map: Option<Arc<ContactMaps>>,
     ) -> Result<Self, SimulationError> {
         let setup = Setup::new(scene, profiles, map)?;
-        let interface = Interface::of(&setup.scene);
+        let interface = Interface::of(&setup.scene, &setup.surfaces);
         let (model, is_complete) = setup.first_model()?;
         let run = Run::new(model, &setup.scene, &interface);
         let in_space = run.model.space.is_some();
@@ -145,6 +145,11 @@ impl Simulation {
     /// Whether a shoulder has cut the contact of an element so far.
     pub fn has_truncated_contacts(&self) -> bool {
         self.run.state.progress.truncated_contacts > 0
+    }
+
+    /// Whether a contact has been beside what is prepared of a surface that varies across the groove.
+    pub fn has_off_track_contacts(&self) -> bool {
+        self.run.state.progress.off_track_contacts > 0
     }
 
     /// The recorder, if the scene has one and the host has given it a folder.

@@ -31,7 +31,7 @@ impl State {
     /// Number of bytes of [`to_bytes`](Self::to_bytes).
     pub fn byte_count(&self) -> usize {
         let progress = &self.progress;
-        let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 10 * 8 + 4 * 8 + 3 * 8;
+        let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 10 * 8 + 4 * 8 + 4 * 8;
         let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
         let rates = self.input_rates.as_flattened().len();
         // Steps, means, velocities; the inputs twice, one list with a time and a flag.
@@ -101,15 +101,7 @@ impl State {
             flag(&mut pushes, field)?;
             *side = if pushes { 1.0 } else { -1.0 };
         }
-        let counts = [
-            &mut progress.steps,
-            &mut progress.implicit_steps,
-            &mut progress.rejected_steps,
-            &mut progress.defect_lookups,
-            &mut progress.truncated_contacts,
-            &mut progress.due.taken,
-        ];
-        for count in counts {
+        for count in progress.counts() {
             let mut bytes = count.to_le_bytes();
             field(&mut bytes)?;
             *count = u64::from_le_bytes(bytes);

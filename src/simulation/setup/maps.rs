@@ -2,56 +2,16 @@
 
 use std::borrow::Cow;
 
-use super::arrangement::{PlacedSurface, arranged, largest_approach, largest_force, sides, softness_of_edges};
-use super::tracks::{element_on_track, on_track, with_operating_angle};
+use super::across::Across;
+use super::arrangement::{PlacedSurface, arranged, sides};
+use super::specification::{map_specification, prepared};
+use super::tracks::{about, element_on_track, on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
-use crate::contact::love::Resolution;
 use crate::contact::map::{ContactMap, ContactMaps, Flanks, MapSpecification, Runner};
 use crate::contact::rolling::RacewaySide;
-use crate::scene::{Bearing, ContactLaw, Scene};
+use crate::scene::{ContactLaw, Scene};
 use crate::simulation::SimulationError;
 use crate::surface::Surface;
-
-/// Error of a contact map that is still taken when the scene asks for none in particular: below what a real edge's
-/// shape leaves open.
-const TOLERATED: f64 = 0.02;
-
-/// Contact maps are made for clearances that are multiples of this (µm). What lies between changes a raceway's radius
-/// by a ten thousandth, and forces by less than a hundredth of a map's own error; a bearing whose clearance is swept
-/// has few maps then.
-const CLEARANCE_UM: f64 = 5.0;
-
-/// The bearing for which the contacts near a scene's defects are prepared.
-pub(super) fn prepared(scene: &Scene) -> Bearing {
-    let mut bearing = scene.bearing.clone();
-    if scene.contact.law == ContactLaw::Map {
-        // In micrometres, as files give it: a multiple keeps its bits.
-        bearing.radial_clearance = CLEARANCE_UM * (bearing.radial_clearance * 1e6 / CLEARANCE_UM).round() / 1e6;
-    }
-    bearing
-}
-
-/// What the contact map of a scene covers on one raceway: forces up to the [`largest_force`]. Outside Δ counts the
-/// rings' and seats' compliance as well. An accuracy that the scene asks for is held; the usual one may be missed, in
-/// defects deeper than they are long, by what `TOLERATED` says.
-pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
-    let largest = largest_approach(&prepared(scene), side, largest_force(scene));
-    let usual = if scene.bearing.roller().is_some() {
-        MapSpecification::of_roller(largest)
-    } else {
-        MapSpecification::new(largest)
-    };
-    MapSpecification {
-        accuracy: scene.contact.map_accuracy.unwrap_or(usual.accuracy),
-        tolerated: if scene.contact.map_accuracy.is_none() { Some(TOLERATED) } else { None },
-        resolution: scene
-            .contact
-            .cells
-            .map_or(usual.resolution, |[columns, rows]| Resolution { columns: columns as usize, rows: rows as usize }),
-        edges: softness_of_edges(scene),
-        ..usual
-    }
-}
 
 /// A contact map that a scene needs.
 #[derive(Debug, Clone)]
@@ -66,14 +26,31 @@ pub struct NeededMap<'s> {
 }
 
 impl<'s> NeededMap<'s> {
-    /// That of a spot on one raceway, as an element of the [`prepared`] bearing meets it.
-    pub(super) fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide) -> Self {
+    /// Those of a spot on one raceway, as an element of the [`prepared`] bearing meets it: one, or the slices of a
+    /// topography that varies across the groove.
+    ///
+    /// # Errors
+    /// A topography that does not reach the track.
+    pub(super) fn all(
+        scene: &Scene,
+        spot: &PlacedSurface<'s>,
+        side: RacewaySide,
+    ) -> Result<Vec<Self>, SimulationError> {
+        Ok(match Across::of(scene, spot, side)? {
+            Some(across) => across.slices().map(|place| Self::of(scene, spot, side, Some(place))).collect(),
+            None => vec![Self::of(scene, spot, side, None)],
+        })
+    }
+
+    /// That of a spot, about a place across the groove (m) where one is given.
+    fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide, place: Option<f64>) -> Self {
         let bearing = prepared(scene);
         let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
         let surface = match on_track(&spot.surface, &scene.bearing, spot.on) {
             Cow::Borrowed(_) => spot.surface.clone(),
             Cow::Owned(stretched) => Cow::Owned(stretched),
         };
+        let surface = about(surface, place);
         let flanks = Some(&*surface).filter(|_| scene.contact.flank_map);
         let (surface, moved) = match flanks.and_then(|surface| Flanks::of(surface, element, specification)) {
             Some(Flanks { surface, moved }) => (Cow::Owned(surface), moved),
@@ -96,15 +73,16 @@ impl<'s> NeededMap<'s> {
 /// that it meets, equal ones once.
 ///
 /// # Errors
-/// Defects that overlap.
+/// Defects that overlap; a topography that does not reach the track.
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let scene = &*with_operating_angle(scene);
     let mut maps: Vec<NeededMap> = Vec::new();
     for spot in arranged(scene, surfaces)? {
         for &side in sides(spot.on) {
-            let map = NeededMap::of(scene, &spot, side);
-            if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
-                maps.push(map);
+            for map in NeededMap::all(scene, &spot, side)? {
+                if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
+                    maps.push(map);
+                }
             }
         }
     }

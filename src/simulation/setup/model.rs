@@ -3,11 +3,14 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::arrangement::{PlacedSurface, arranged};
-use super::maps::{NeededMap, map_fingerprint, map_specification, prepared};
+use super::across::Across;
+use super::arrangement::{PlacedSurface, arranged, sides};
+use super::maps::{NeededMap, map_fingerprint};
 use super::parameters::with_parameters;
-use super::tracks::{defect_radius, element_on_track, on_track, rolling_on_track, with_operating_angle};
+use super::specification::{map_specification, prepared};
+use super::tracks::{about, defect_radius, element_on_track, on_track, rolling_on_track, with_operating_angle};
 use super::waves::check_waves;
+use crate::contact::across::Slices;
 use crate::contact::love::{Arcs, check_ends};
 use crate::contact::map::{ContactMap, ContactMaps, MapPlan, Sequential};
 use crate::contact::near_defect::{NearDefect, NearLove, NearMap};
@@ -25,7 +28,7 @@ use std::f64::consts::{PI, TAU};
 #[derive(Debug, Clone)]
 pub(in crate::simulation) struct Setup {
     pub(in crate::simulation) scene: Arc<Scene>,
-    surfaces: Arc<[Surface]>,
+    pub(in crate::simulation) surfaces: Arc<[Surface]>,
     /// The contact maps stored with the scene.
     map: Option<Arc<ContactMaps>>,
 }
@@ -60,8 +63,10 @@ impl Setup {
                 ContactLaw::Love => false,
             };
         if !is_complete {
-            // Overlaps are refused now, not when the model is built.
-            arranged(scene, surfaces)?;
+            // Overlaps and what does not reach a track are refused now, not when the model is built.
+            for spot in arranged(scene, surfaces)? {
+                sides(spot.on).iter().try_for_each(|&side| Across::of(scene, &spot, side).map(|_| ()))?;
+            }
         }
         Ok((build_model(scene, if is_complete { surfaces } else { &[] }, map.as_ref())?, is_complete))
     }
@@ -116,12 +121,7 @@ fn near(
     let surface = &*on_track(&spot.surface, &scene.bearing, spot.on);
     let bearer = defect_radius(&scene.bearing, spot.on);
     let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
-    if let Surface::Topography(_) = surface
-        && scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two
-    {
-        let what = "a topography, which balls at a contact angle meet beside its middle row,";
-        return Err(SimulationError::NotInSpace { what, given: scene.bearing.degrees_of_freedom.count() });
-    }
+    let across = Across::of(scene, spot, side)?;
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => {
             NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?.turned_slower(shortened))
@@ -130,23 +130,22 @@ fn near(
             return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
         }
         (ContactLaw::Map, _) => {
-            let wanted = NeededMap::of(scene, spot, side);
-            let known = stored.and_then(|stored| stored.find(wanted.fingerprint));
-            let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted.fingerprint)) {
-                Some(map) => Arc::clone(map),
-                None => {
-                    let map = Arc::new(wanted.build(&mut Sequential(|_, _| {}))?);
-                    computed.push(Arc::clone(&map));
-                    map
-                }
-            };
-            let map = if wanted.moved == [0.0; 2] { map } else { Arc::new(map.with_flanks_moved(wanted.moved)) };
-            NearDefect::Map(NearMap::new(map, bearer))
+            let wanted = NeededMap::all(scene, spot, side)?;
+            let maps = wanted.iter().map(|wanted| made(wanted, stored, computed)).collect::<Result<Vec<_>, _>>()?;
+            let near = NearMap::new(Arc::clone(&maps[0]), bearer);
+            NearDefect::Map(match across {
+                Some(Across { ends, distance, .. }) => near.with_slices(Slices::new(maps, ends, distance)),
+                None => near,
+            })
         }
         (ContactLaw::Love, _) => {
             let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
-            let grid = MapPlan::new(surface, element, specification)?.into_love();
-            NearDefect::Love(Box::new(NearLove::new(grid, bearer)))
+            let surface = about(Cow::Borrowed(surface), across.map(|across| across.track));
+            let near = NearLove::new(MapPlan::new(&surface, element, specification)?.into_love(), bearer);
+            NearDefect::Love(Box::new(match across {
+                Some(across) => near.across(across.track),
+                None => near,
+            }))
         }
     };
     let (knots, radius) = (near.knots(), bearer);
@@ -156,6 +155,24 @@ fn near(
         check_ends(Arcs::of(surface), felt, radius, "where contacts reach it")?;
     }
     Ok(near)
+}
+
+/// A map that is stored, was made before or is made now.
+fn made(
+    wanted: &NeededMap,
+    stored: Option<&Arc<ContactMaps>>,
+    computed: &mut Vec<Arc<ContactMap>>,
+) -> Result<Arc<ContactMap>, SimulationError> {
+    let known = stored.and_then(|stored| stored.find(wanted.fingerprint));
+    let map = match known.or_else(|| computed.iter().find(|map| map.fingerprint() == wanted.fingerprint)) {
+        Some(map) => Arc::clone(map),
+        None => {
+            let map = Arc::new(wanted.build(&mut Sequential(|_, _| {}))?);
+            computed.push(Arc::clone(&map));
+            map
+        }
+    };
+    Ok(if wanted.moved == [0.0; 2] { map } else { Arc::new(map.with_flanks_moved(wanted.moved)) })
 }
 
 /// The equations' parameters, with what the contact law needs near the defects, whose surfaces are given in the scene's

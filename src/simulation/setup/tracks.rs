@@ -20,7 +20,7 @@ const SETTLED: f64 = 1.7e-5;
 const MOST: usize = 20;
 
 /// Operating angle of a bearing in space (rad); 0 in the plane.
-fn angle_of(bearing: &Bearing) -> f64 {
+pub(super) fn angle_of(bearing: &Bearing) -> f64 {
     bearing.given_operating_angle().filter(|_| bearing.degrees_of_freedom != DegreesOfFreedom::Two).unwrap_or(0.0)
 }
 
@@ -45,13 +45,23 @@ pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element:
     }
 }
 
-/// A surface as it is met on the track. A topography is not, and stays what it is.
+/// A surface as it is met on the track.
 pub(super) fn on_track<'a>(surface: &'a Surface, bearing: &Bearing, on: DefectOn) -> Cow<'a, Surface> {
-    match surface {
-        Surface::Profile(profile) if angle_of(bearing) != 0.0 && !matches!(on, DefectOn::Element { .. }) => {
-            Cow::Owned(Surface::Profile(profile.stretched(defect_radius(bearing, on) / on.radius(bearing))))
-        }
-        _ => Cow::Borrowed(surface),
+    if angle_of(bearing) == 0.0 || matches!(on, DefectOn::Element { .. }) {
+        return Cow::Borrowed(surface);
+    }
+    let longer = defect_radius(bearing, on) / on.radius(bearing);
+    Cow::Owned(match surface {
+        Surface::Profile(profile) => Surface::Profile(profile.stretched(longer)),
+        Surface::Topography(topography) => Surface::Topography(topography.stretched(longer)),
+    })
+}
+
+/// The same as it lies about a place across the groove (m), where one is given.
+pub(super) fn about<'a>(surface: Cow<'a, Surface>, place: Option<f64>) -> Cow<'a, Surface> {
+    match place {
+        Some(place) => Cow::Owned(surface.into_owned().seen_from(place)),
+        None => surface,
     }
 }
 
@@ -66,7 +76,7 @@ pub(super) fn defect_radius(bearing: &Bearing, on: DefectOn) -> f64 {
 
 /// The scene with the operating angle that it leaves open: with free rings the mean |α| of the start's balance on
 /// smooth raceways, weighted with the forces, and 0 where a host moves a ring.
-pub(in crate::simulation) fn with_operating_angle(scene: &Scene) -> Cow<'_, Scene> {
+pub fn with_operating_angle(scene: &Scene) -> Cow<'_, Scene> {
     let bearing = &scene.bearing;
     if bearing.degrees_of_freedom == DegreesOfFreedom::Two || bearing.given_operating_angle().is_some() {
         return Cow::Borrowed(scene);

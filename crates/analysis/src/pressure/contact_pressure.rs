@@ -17,6 +17,7 @@ use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::hertz_constant::{approach_under, effective_modulus, point_contact};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, Scene};
+use brinell::simulation::setup::{track_across, with_operating_angle};
 use brinell::surface::{Surface, SurfaceError};
 use std::f64::consts::PI;
 
@@ -122,7 +123,8 @@ pub struct Pressed {
 
 impl BallOnRaceway {
     /// A ball of the scene's bearing on a raceway, `angle` (rad) counter-clockwise in the ring's own sense from the
-    /// middle of the first of its defects. `profiles` are as for [`Surface::load_all`].
+    /// middle of the first of its defects. In space a topography is met on the track at the operating angle.
+    /// `profiles` are as for [`Surface::load_all`].
     /// ```
     /// use brinell::contact::rolling::RacewaySide;
     /// use brinell::scene::{Bearing, Scene};
@@ -153,7 +155,8 @@ impl BallOnRaceway {
             return Err(PressureError::OutOfRange { quantity, value: angle.to_degrees(), unit: "degrees", limit });
         }
         let on = if side == RacewaySide::Outer { DefectOn::Outer } else { DefectOn::Inner };
-        let surfaces = Surface::load_all(scene, profiles)?;
+        let track = track_across(&with_operating_angle(scene), on);
+        let surfaces = Surface::load_all(scene, profiles)?.into_iter().map(|surface| surface.seen_from(track));
         let there: Vec<_> = scene.defects.iter().zip(surfaces).filter(|(defect, _)| defect.on == on).collect();
         let first = there.first().map_or(0.0, |(defect, _)| defect.angle);
         let arc = |at: f64| wrap(first + angle - at) * side.radius(bearing);

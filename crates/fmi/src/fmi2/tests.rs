@@ -118,7 +118,7 @@ fn an_instance_lives_through_raw_pointers_and_memory_that_is_not_initialised() {
 fn integers_strings_and_derivatives_go_into_memory_that_is_not_initialised() {
     let resources = Resources::new("kinds");
     let c = resources.instance("kinds");
-    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap());
+    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap(), &[]);
     let named = |name: &str| table.iter().find(|(row, _)| row.name == name).unwrap().0.reference;
     let (steps, folder) = (named("solver.steps"), named("recorder.folder"));
     let (output, input) = (named("shaft.force.y"), named("shaft.speed"));

@@ -65,7 +65,7 @@ impl Drop for Resources {
 
 /// Reference of the array whose first element has this name.
 fn reference(name: &str) -> u32 {
-    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap());
+    let table = brinell::simulation::interface::table::rows(&brinell_scene_file::from_toml(SCENE).unwrap(), &[]);
     table.iter().find(|(row, _)| row.name == name).unwrap().0.reference
 }
 

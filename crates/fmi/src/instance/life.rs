@@ -54,6 +54,8 @@ pub(crate) struct Instance {
     looked_at_held: bool,
     /// Whether it has warned of contacts that a shoulder cuts.
     warned_of_shoulders: bool,
+    /// Whether it has warned of contacts beside the slices of a topography.
+    warned_of_track: bool,
     /// Strings handed out last, which stay valid until strings are read again.
     texts: Vec<CString>,
 }
@@ -78,6 +80,7 @@ impl Instance {
             looked_at: [0.0; 2],
             looked_at_held: false,
             warned_of_shoulders: false,
+            warned_of_track: false,
             texts: Vec::new(),
         }
     }
@@ -90,7 +93,8 @@ impl Instance {
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
-        (self.looked_at, self.looked_at_held, self.warned_of_shoulders) = ([0.0; 2], false, false);
+        (self.looked_at, self.looked_at_held) = ([0.0; 2], false);
+        (self.warned_of_shoulders, self.warned_of_track) = (false, false);
         self.last_step = Status::Ok;
         Ok(unstored)
     }
@@ -175,6 +179,9 @@ impl Instance {
         if !self.warned_of_shoulders && self.simulation.has_truncated_contacts() {
             self.warn_of_shoulders(reached.time);
         }
+        if !self.warned_of_track && self.simulation.has_off_track_contacts() {
+            self.warn_of_track(reached.time);
+        }
         Ok(())
     }
 
@@ -187,6 +194,20 @@ impl Instance {
                 "until {time:?} s a raceway's shoulder has cut the contact of an element \
                  (solver.truncated_contacts, element[j].shoulder): forces stay those of whole ellipses, up to 2 % too \
                  large with an eighth of the ellipse cut off and 9 % with a quarter."
+            )
+        });
+    }
+
+    /// Says once that a topography is no longer met where a ball is.
+    #[cold]
+    fn warn_of_track(&mut self, time: f64) {
+        self.warned_of_track = true;
+        self.logger.line(Status::Warning, || {
+            format!(
+                "until {time:?} s a contact was beside the slices across the groove for which the map of a topography \
+                 is made, by more than a quarter of its ellipse's half-length (solver.off_track_contacts): it meets \
+                 the outermost of them instead. bearing.operating_angle_deg says where they are; contact.law = \
+                 \"love\" has no such bounds."
             )
         });
     }

@@ -3,6 +3,7 @@
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
 use crate::scene::{ContactLaw, Motion, RepeatedInputs, Scene};
 use crate::simulation::interface::quantity::{Quantity, RingName};
+use crate::surface::Surface;
 
 /// Items of the enumeration type of `contact.law`, the first having value 1.
 pub(super) const CONTACT_LAWS: &[(&str, &str)] = &{
@@ -17,6 +18,8 @@ pub(super) const REPEATED_INPUTS: &[(&str, &str)] =
 /// A table in the making.
 pub(super) struct Builder<'a> {
     pub(super) scene: &'a Scene,
+    /// Surfaces of its defects.
+    pub(super) surfaces: &'a [Surface],
     rows: Vec<(Variable, Quantity)>,
 }
 
@@ -32,8 +35,8 @@ pub(super) struct Limited {
 
 impl<'a> Builder<'a> {
     /// A table without rows, with room for `count`.
-    pub(in crate::simulation) fn new(scene: &'a Scene, count: usize) -> Self {
-        Self { scene, rows: Vec::with_capacity(count) }
+    pub(in crate::simulation) fn new(scene: &'a Scene, surfaces: &'a [Surface], count: usize) -> Self {
+        Self { scene, surfaces, rows: Vec::with_capacity(count) }
     }
 
     /// The rows added, in their order.

@@ -2,8 +2,9 @@
 
 use super::builder::Builder;
 use super::variables::Unit;
-use crate::scene::{DegreesOfFreedom, Motion};
+use crate::scene::{Defect, DefectOn, DegreesOfFreedom, Motion};
 use crate::simulation::interface::quantity::{Quantity as Q, RingName};
+use crate::surface::Surface;
 
 /// Letter of each coordinate of a ring, and whether it is along an axis or about one.
 pub(super) const COORDINATES: [[&str; 2]; 5] =
@@ -68,6 +69,14 @@ impl Builder<'_> {
     pub(super) fn has_shoulders(&self) -> bool {
         let bearing = &self.scene.bearing;
         bearing.shoulder_inner.is_some() || bearing.shoulder_outer.is_some()
+    }
+
+    /// Whether contacts meet a ring's topography at places across the groove.
+    pub(super) fn meets_topography_beside_its_track(&self) -> bool {
+        let of_ring = |(defect, surface): (&Defect, &Surface)| {
+            matches!(surface, Surface::Topography(_)) && !matches!(defect.on, DefectOn::Element { .. })
+        };
+        self.in_space() && self.scene.defects.iter().zip(self.surfaces).any(of_ring)
     }
 
     /// Coordinates along which a ring moves. The tilt of an outer ring that moves under forces is held.

@@ -8,11 +8,12 @@ use crate::scene::{DefectOn, Motion, Scene, WavyBody};
 use crate::simulation::interface::quantity::{Count, Quantity, Quantity as Q, RingName};
 use crate::simulation::interface::table::builder::{Builder, RINGS};
 use crate::simulation::interface::table::variables::{Causality, Kind, Unit, Variability, Variable};
+use crate::surface::Surface;
 
-/// The table of a scene, with what each variable stands for.
-pub fn rows(scene: &Scene) -> Vec<(Variable, Quantity)> {
+/// The table of a scene with these surfaces of its defects, in the scene's order, with what each variable stands for.
+pub fn rows(scene: &Scene, surfaces: &[Surface]) -> Vec<(Variable, Quantity)> {
     let count = 60 + 4 * scene.bearing.element_count;
-    let mut builder = Builder::new(scene, count);
+    let mut builder = Builder::new(scene, surfaces, count);
     builder.inputs();
     builder.outputs();
     builder.parameters();
@@ -286,6 +287,10 @@ impl Builder<'_> {
         if self.has_shoulders() {
             let text = "Ends of integration steps at which a shoulder cuts the contact of an element";
             self.counter("solver.truncated_contacts", text, Q::Count(Count::TruncatedContacts));
+        }
+        if self.meets_topography_beside_its_track() {
+            let text = "Ends of integration steps at which a contact is beside the slices of a topography";
+            self.counter("solver.off_track_contacts", text, Q::Count(Count::OffTrackContacts));
         }
         if !self.scene.defects.is_empty() {
             self.counter(

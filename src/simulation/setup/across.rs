@@ -1,0 +1,101 @@
+//! Where across the groove a topography of a ring is met by balls in space.
+//!
+//! The track lies at the place η_n, the groove's arc from its bottom to the operating angle α_n: r_go α_n outside and
+//! −r_gi α_n inside, the other way where the bearing is pushed the other way. Law `love` knows the surface everywhere
+//! about it, law `map` on slices beside each other, of which the middle one is on the track. On an element the track
+//! is the middle row wherever the ball runs.
+
+use super::arrangement::PlacedSurface;
+use super::specification::{map_specification, prepared};
+use super::tracks::{angle_of, element_on_track};
+use crate::contact::rolling::RacewaySide;
+use crate::scene::{DefectOn, DegreesOfFreedom, Scene};
+use crate::simulation::SimulationError;
+use crate::surface::{Surface, Topography};
+
+/// Slices on either side of the track.
+const BESIDE: usize = 3;
+/// Distance of two slices over the half-length across the groove of the largest contact. It is a quarter of that of a
+/// contact of a quarter of the force, 0.157, at the most.
+const APART: f64 = 0.125;
+
+/// Places (m) at which a surface is met across the groove.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Across {
+    /// η_n
+    pub(super) track: f64,
+    /// First and last place for which law `map` prepares it.
+    pub(super) ends: [f64; 2],
+    /// Distance of its slices.
+    pub(super) distance: f64,
+    /// Whether it varies there; one slice does where it does not.
+    varies: bool,
+}
+
+impl Across {
+    /// Where a spot is met on one raceway; `None` of a surface that is met the same everywhere across: a profile's, an
+    /// element's, and each one in the plane.
+    ///
+    /// # Errors
+    /// A topography that does not reach the track.
+    pub(super) fn of(scene: &Scene, spot: &PlacedSurface, side: RacewaySide) -> Result<Option<Self>, SimulationError> {
+        let (bearing, surface) = (&scene.bearing, &*spot.surface);
+        let Surface::Topography(topography) = surface else { return Ok(None) };
+        if bearing.degrees_of_freedom == DegreesOfFreedom::Two || matches!(spot.on, DefectOn::Element { .. }) {
+            return Ok(None);
+        }
+        let track = track_across(scene, spot.on);
+        check_reach(topography, track, side)?;
+        let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
+        let [_, half] = element.contact_half_axes(specification.largest_approach);
+        // Whole rows of the grids, so that all slices are solved on the same cells.
+        let row = 2.0 * half / specification.resolution.rows as f64;
+        let distance = (APART * half / row).round().max(1.0) * row;
+        let beside = BESIDE as f64 * distance;
+        // A contact of the largest force, a fifth wider as its grid is, and rounded up to a row.
+        let felt = beside + 1.2 * half + 2.0 * row;
+        let varies = topography.varies_across([track - felt, track + felt]);
+        Ok(Some(Self { track, ends: [track - beside, track + beside], distance, varies }))
+    }
+
+    /// Place of each slice (m).
+    pub(super) fn slices(self) -> impl Iterator<Item = f64> {
+        let (first, count) = if self.varies { (self.ends[0], 2 * BESIDE + 1) } else { (self.track, 1) };
+        (0..count).map(move |k| first + k as f64 * self.distance)
+    }
+}
+
+/// Place η_n (m) of the track across the groove of a ring at the scene's operating angle; 0 in the plane and on an
+/// element.
+pub fn track_across(scene: &Scene, on: DefectOn) -> f64 {
+    let angle = angle_of(&scene.bearing) * pushed_way(scene);
+    let [inner, outer] = scene.bearing.groove_radii();
+    match on {
+        DefectOn::Outer => outer * angle,
+        DefectOn::Inner => -(inner * angle),
+        DefectOn::Element { .. } => 0.0,
+    }
+}
+
+/// Sign of the contact angles: that of a free contact angle or of an operating angle below 0, else the way in which the
+/// inner ring is pushed.
+fn pushed_way(scene: &Scene) -> f64 {
+    let (bearing, [shaft, housing]) = (&scene.bearing, [&scene.shaft.axial, &scene.housing.axial]);
+    let push = match (bearing.contact_angle, bearing.operating_angle) {
+        (Some(free), _) => free,
+        (None, Some(angle)) if angle < 0.0 => angle,
+        _ => shaft.load + shaft.preload - (housing.load - housing.preload),
+    };
+    if push < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// Refuses a topography whose rows end before the track.
+fn check_reach(topography: &Topography, track: f64, side: RacewaySide) -> Result<(), SimulationError> {
+    let axials = topography.axials();
+    let [first, last] = [axials[0], axials[axials.len() - 1]];
+    if (first..=last).contains(&track) {
+        return Ok(());
+    }
+    let ring = if side == RacewaySide::Outer { "outer" } else { "inner" };
+    Err(SimulationError::OffTopography { ring, track_mm: track * 1e3, first_mm: first * 1e3, last_mm: last * 1e3 })
+}
