@@ -187,7 +187,7 @@ class Unit(Instance):
     def __init__(self, component, folder, iterated=False):
         super().__init__(os.path.join(folder, component.source), component.name)
         if iterated and "host.repeated_inputs" in self.reference:
-            self.slave.setInteger([self.reference["host.repeated_inputs"]], [END])
+            self.unit.setInteger([self.reference["host.repeated_inputs"]], [END])
         self.enter({parameter.name: float(parameter.value) for parameter in parameters_of(component)})
         names = {kind: [c.name for c in component.connectors if c.kind == kind] for kind in ("input", "output")}
         self.inputs, self.outputs = (Numbers(self, names[kind]) for kind in ("input", "output"))
@@ -197,21 +197,21 @@ class Unit(Instance):
         self.gives_derivatives, self.takes_derivatives = what.maxOutputDerivativeOrder > 0, what.canInterpolateInputs
 
     def give(self):
-        self.call(self.slave.fmi2GetReal, *self.outputs.arguments)
+        self.call(self.unit.fmi2GetReal, *self.outputs.arguments)
         return self.outputs.array.copy()
 
     def derivatives(self):
         component, references, count, values = self.outputs.arguments
-        self.call(self.slave.fmi2GetRealOutputDerivatives, component, references, count, self.orders, values)
+        self.call(self.unit.fmi2GetRealOutputDerivatives, component, references, count, self.orders, values)
         return self.outputs.array.copy()
 
     def tell(self, values, slopes=None):
         self.inputs.array[:] = values
         component, references, count, pointer = self.inputs.arguments
-        self.call(self.slave.fmi2SetReal, component, references, count, pointer)
+        self.call(self.unit.fmi2SetReal, component, references, count, pointer)
         if slopes is not None:
             self.inputs.array[:] = slopes
-            self.call(self.slave.fmi2SetRealInputDerivatives, component, references, count, self.orders, pointer)
+            self.call(self.unit.fmi2SetRealInputDerivatives, component, references, count, self.orders, pointer)
 
 
 @contextmanager

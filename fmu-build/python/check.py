@@ -59,9 +59,9 @@ class Unit:
         self.names = [v.name for v, count in zip(self.outputs, counts) for _ in range(count)]
         file = f"binaries/{own}/{what.modelIdentifier}{fmpy.sharedLibraryExtension}"
         need((Path(folder) / file).is_file(), f"{file} is missing: nothing for this platform")
-        slave = FMU2Slave if self.two else FMU3Slave
+        kind = FMU2Slave if self.two else FMU3Slave
         self.log = []
-        self.unit = slave(
+        self.unit = kind(
             guid=description.guid, unzipDirectory=folder, modelIdentifier=what.modelIdentifier, instanceName="check",
             libraryPath=str(Path(folder).resolve() / file), requireFunctions=False,
         )  # fmt: skip

@@ -14,36 +14,36 @@ class Host:
         self.folder = fmpy.extract(fmu, folder)
         self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
         self.start = {v.name: float(v.start) for v in self.description.modelVariables if v.start and v.type == "Real"}
-        self.slave = FMU2Slave(
+        self.unit = FMU2Slave(
             guid=self.description.guid,
             unzipDirectory=self.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName="demo",
         )
-        self.slave.instantiate()
+        self.unit.instantiate()
         # Without a word from the FMU a failed call would say no more than its status.
-        self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
+        self.unit.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
         for name, value in (start or {}).items():
             if isinstance(value, str):
-                self.slave.setString([self.reference[name]], [value])
+                self.unit.setString([self.reference[name]], [value])
             else:
                 self.write([name], [value])
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
+        self.unit.setupExperiment(startTime=0.0)
+        self.unit.enterInitializationMode()
+        self.unit.exitInitializationMode()
         self.time = 0.0
 
     def step(self, length):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
+        self.unit.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
         self.time += length
 
     def read(self, names):
-        return self.slave.getReal([self.reference[name] for name in names])
+        return self.unit.getReal([self.reference[name] for name in names])
 
     def write(self, names, values):
-        self.slave.setReal([self.reference[name] for name in names], values)
+        self.unit.setReal([self.reference[name] for name in names], values)
 
     def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
+        self.unit.terminate()
+        self.unit.freeInstance()
         shutil.rmtree(self.folder, ignore_errors=True)

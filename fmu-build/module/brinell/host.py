@@ -60,16 +60,16 @@ class Instance:
         callbacks.allocateMemory, callbacks.freeMemory = defaultCallbacks.allocateMemory, defaultCallbacks.freeMemory
         # Fills in the variable arguments of the FMU's messages, which Python cannot.
         addLoggerProxy(byref(callbacks))
-        self.slave = FMU2Slave(
+        self.unit = FMU2Slave(
             guid=self.description.guid,
             unzipDirectory=unzipped(fmu),
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
         self.kept, self.name = callbacks, name
-        self.slave.instantiate(callbacks=callbacks)
+        self.unit.instantiate(callbacks=callbacks)
         # Without this an error would say no more than its status.
-        self.slave.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
+        self.unit.setDebugLogging(True, ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"])
         self.time = 0.0
         self.state = fmi2FMUstate()
 
@@ -77,15 +77,15 @@ class Instance:
         """Sets parameters and start values and goes into initialization mode."""
         for name, value in (start or {}).items():
             if isinstance(value, str):
-                self.call(self.slave.setString, [self.reference[name]], [value])
+                self.call(self.unit.setString, [self.reference[name]], [value])
             else:
                 self.write([name], [value])
-        self.call(self.slave.setupExperiment, startTime=0.0)
-        self.call(self.slave.enterInitializationMode)
+        self.call(self.unit.setupExperiment, startTime=0.0)
+        self.call(self.unit.enterInitializationMode)
 
     def run(self):
         """Ends initialization; steps may follow."""
-        self.call(self.slave.exitInitializationMode)
+        self.call(self.unit.exitInitializationMode)
         self.time = 0.0
 
     def call(self, function, *arguments, **named):
@@ -95,27 +95,27 @@ class Instance:
             raise RuntimeError(f"{function.__name__} at {self.time:.9g} s: {what_was_said(error)}") from None
 
     def read(self, names):
-        return np.array(self.call(self.slave.getReal, [self.reference[name] for name in names]))
+        return np.array(self.call(self.unit.getReal, [self.reference[name] for name in names]))
 
     def write(self, names, values):
-        self.call(self.slave.setReal, [self.reference[name] for name in names], [float(value) for value in values])
+        self.call(self.unit.setReal, [self.reference[name] for name in names], [float(value) for value in values])
 
     def step(self, length):
-        self.call(self.slave.doStep, self.time, length)
+        self.call(self.unit.doStep, self.time, length)
         self.time += length
 
     def save(self):
         """Takes the FMU's state, over the one taken before."""
-        self.call(self.slave.fmi2GetFMUstate, self.slave.component, byref(self.state))
+        self.call(self.unit.fmi2GetFMUstate, self.unit.component, byref(self.state))
         self.saved_time = self.time
 
     def restore(self):
         """Goes back to the state taken last."""
-        self.call(self.slave.fmi2SetFMUstate, self.slave.component, self.state)
+        self.call(self.unit.fmi2SetFMUstate, self.unit.component, self.state)
         self.time = self.saved_time
 
     def close(self):
-        self.slave.freeInstance()
+        self.unit.freeInstance()
 
 
 class Numbers:
@@ -124,7 +124,7 @@ class Numbers:
     def __init__(self, instance, names):
         self.array = np.zeros(len(names))
         references = (c_uint * len(names))(*(instance.reference[name] for name in names))
-        self.arguments = instance.slave.component, references, len(names), self.array.ctypes.data_as(POINTER(c_double))
+        self.arguments = instance.unit.component, references, len(names), self.array.ctypes.data_as(POINTER(c_double))
 
 
 def named(kind, axis):
@@ -205,11 +205,11 @@ class Bearing(Instance):
         Gives the force on the shaft: its mean over the step, and at the end, where the shaft is then.
         """
         self.motion.array[:] = *position, *velocity, *acceleration
-        slave = self.slave
+        unit = self.unit
         try:
-            slave.fmi2SetReal(*self.motion.arguments)
-            slave.fmi2DoStep(slave.component, self.time, length, 1)
-            slave.fmi2GetReal(*self.forces.arguments)
+            unit.fmi2SetReal(*self.motion.arguments)
+            unit.fmi2DoStep(unit.component, self.time, length, 1)
+            unit.fmi2GetReal(*self.forces.arguments)
         except FMICallException as error:
             raise RuntimeError(f"step at {self.time:.9g} s: {what_was_said(error)}") from None
         self.time += length
@@ -218,5 +218,5 @@ class Bearing(Instance):
 
     def stiffness(self):
         """The tangent stiffness matrix now [N/m]."""
-        self.call(self.slave.fmi2GetReal, *self.tangent.arguments)
+        self.call(self.unit.fmi2GetReal, *self.tangent.arguments)
         return self.tangent.array.reshape(len(self.axes), -1).copy()

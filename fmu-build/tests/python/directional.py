@@ -33,7 +33,7 @@ for fmu in sys.argv[1:]:
                 sides.append(np.array(host.read(outputs)))
             host.write([variable.name], [at])
             found = (sides[1] - sides[0]) / (2 * step)
-            given = np.array(host.slave.getDirectionalDerivative(unknowns, [variable.valueReference], [1.0]))
+            given = np.array(host.unit.getDirectionalDerivative(unknowns, [variable.valueReference], [1.0]))
             # A part of the stiffness is rounded as its largest one is.
             stiff = np.array([name.startswith("shaft.stiffness") for name in outputs])
             size = np.where(stiff, np.abs(middle[stiff]).max(initial=0.0), np.abs(middle))

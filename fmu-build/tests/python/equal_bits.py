@@ -20,7 +20,7 @@ assert ["time", *reals, *integers] == names
 for count, row in enumerate(rows):
     if count > 0:
         host.step(step)
-    counts = host.slave.getInteger([host.reference[name] for name in integers]) if integers else []
+    counts = host.unit.getInteger([host.reference[name] for name in integers]) if integers else []
     for name, expected, got in zip(names, row, [host.time, *host.read(reals), *counts]):
         assert got == expected, f"point {count}: {name} is {got!r} in the FMU and {expected!r} without a host"
 host.close()

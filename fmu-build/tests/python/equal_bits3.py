@@ -32,8 +32,8 @@ for two, three in zip(sys.argv[2::2], sys.argv[3::2]):
         for name, value in zip(reals, before):
             now = after[columns[name]]
             assert now == value, f"{three}, step {n}: {name} is {now!r}, not {value!r}"
-        numbers = old.slave.getInteger([old.reference[name] for name in counters])
-        assert numbers == new.slave.getUInt64([new.variables[name].valueReference for name in counters])
+        numbers = old.unit.getInteger([old.reference[name] for name in counters])
+        assert numbers == new.unit.getUInt64([new.variables[name].valueReference for name in counters])
     old.close()
     new.close()
 print(f"{count} steps each, {len(sys.argv) // 2 - 1} scenes")

@@ -44,11 +44,11 @@ def states(fmu):
     step = float(host.description.defaultExperiment.stepSize)
     for _ in range(20):
         host.step(step)
-    state, time = host.slave.getFMUState(), host.time
-    copy = host.slave.deserializeFMUState(host.slave.serializeFMUState(state))
+    state, time = host.unit.getFMUState(), host.time
+    copy = host.unit.deserializeFMUState(host.unit.serializeFMUState(state))
     runs = []
     for start in (state, state, copy):
-        host.slave.setFMUState(start)
+        host.unit.setFMUState(start)
         host.time = time
         run = []
         for _ in range(20):
@@ -56,7 +56,7 @@ def states(fmu):
             run.append(list(host.read(outputs)))
         runs.append(run)
     assert runs[0] == runs[1] == runs[2], fmu
-    host.slave.freeFMUState(state)
+    host.unit.freeFMUState(state)
     host.close()
 
 
@@ -82,14 +82,14 @@ def derivatives(fmu):
             sides.append(np.array(host.read(outputs)))
         host.write([name], [at])
         found = (sides[1] - sides[0]) / (2 * step)
-        given = np.array(host.slave.getDirectionalDerivative(unknowns, [knowns[k]], [1.0], len(middle)))
+        given = np.array(host.unit.getDirectionalDerivative(unknowns, [knowns[k]], [1.0], len(middle)))
         # As in directional.py; a part of the stiffness is rounded as its largest one is.
         size = np.where(stiff, np.abs(middle[stiff]).max(initial=0.0), np.abs(middle))
         allowed = 1e-5 * np.abs(given) + 1e-11 * np.maximum(size, 1.0) / step
         assert np.all(np.abs(found - given) <= allowed), f"{fmu}: {name}"
         jacobian[:, k] = given
     seed = np.sin(np.arange(len(middle)) + 0.5)
-    adjoint = np.array(host.slave.getAdjointDerivative(unknowns, knowns, list(seed), len(inputs)))
+    adjoint = np.array(host.unit.getAdjointDerivative(unknowns, knowns, list(seed), len(inputs)))
     # Roundings of a sum of some sixty products.
     assert np.all(np.abs(adjoint - seed @ jacobian) <= 1e-12 * (np.abs(seed) @ np.abs(jacobian))), fmu
     # What is not listed as a dependency has derivative 0, element by element.

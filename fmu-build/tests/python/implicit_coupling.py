@@ -44,7 +44,7 @@ def monolithic(fmu, step):
 def slope(hosted, known):
     """How the force changes with two inputs: one column each."""
     unknowns = [hosted.reference[name] for name in FORCE]
-    columns = [hosted.slave.getDirectionalDerivative(unknowns, [hosted.reference[name]], [1.0]) for name in known]
+    columns = [hosted.unit.getDirectionalDerivative(unknowns, [hosted.reference[name]], [1.0]) for name in known]
     return np.array(columns).T
 
 
@@ -58,10 +58,10 @@ def coupled(fmu, step, begin, scheme):
     a = np.zeros(2)
     inertia = MASS + 0.5 * DAMPING * step
     for _ in range(round(STOP / step)):
-        state, time = hosted.slave.getFMUState(), hosted.time
+        state, time = hosted.unit.getFMUState(), hosted.time
         for count in range(1, MOST + 1):
             if count > 1:
-                hosted.slave.setFMUState(state)
+                hosted.unit.setFMUState(state)
                 hosted.time = time
             hosted.write(POSITION + VELOCITY + ACCELERATION, np.concatenate([x, v, a]))
             hosted.step(step)
@@ -78,7 +78,7 @@ def coupled(fmu, step, begin, scheme):
             if np.abs(left).max() < AGREED:
                 break
             a = better
-        hosted.slave.freeFMUState(state)
+        hosted.unit.freeFMUState(state)
         passes.append(count)
         x, v = x + step * v + 0.5 * step**2 * a, v + step * a
         if not np.abs(x).max() < 1e-3:

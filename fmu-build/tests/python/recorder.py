@@ -15,14 +15,14 @@ SEEN = ["sensor.acceleration", "shaft.force.y", "element[1].path", "cage.angle"]
 folder = Path(sys.argv[1]).parent / "recorded here"
 host = Host(sys.argv[1], start={"recorder.folder": str(folder)})
 reference = host.reference["recorder.folder"]
-assert host.slave.getString([reference])[0].decode() == str(folder)
+assert host.unit.getString([reference])[0].decode() == str(folder)
 seen = [host.read(SEEN)]
 for index in range(100):
     if index % 10 == 3:
-        saved = host.slave.getFMUState()
+        saved = host.unit.getFMUState()
         host.step(1e-3)
-        host.slave.setFMUState(saved)
-        host.slave.freeFMUState(saved)
+        host.unit.setFMUState(saved)
+        host.unit.freeFMUState(saved)
         host.time -= 1e-3
     host.step(1e-3)
     seen.append(host.read(SEEN))

@@ -80,7 +80,7 @@ impl Simulation {
         state.reals[..self.interface.inputs.count].copy_from_slice(&history.arrived);
         state.input_rates.fill([None; 2]);
         state.ended = Ended::default();
-        go_on(history, &self.interface.inputs, &mut state.reals);
+        carry_on(history, &self.interface.inputs, &mut state.reals);
         self.invalidate(UpToDate::State);
         self.refresh()?;
         self.refresh_stiffness();
@@ -106,7 +106,7 @@ impl Simulation {
 }
 
 /// Puts the inputs of hosted rings where the last step ends and on their way through the next.
-fn go_on(history: &History, inputs: &Inputs, reals: &mut [f64]) {
+fn carry_on(history: &History, inputs: &Inputs, reals: &mut [f64]) {
     let History { step, earlier: [later, first], .. } = *history;
     if first == 0.0 {
         return;

@@ -20,7 +20,7 @@ pub(super) struct Found<'a, 'f> {
 }
 
 /// Names of tables of which there may be several.
-const SEVERAL: [&str; 3] = ["defect", "sensor", "sensor.mode"];
+const SEVERAL: [&str; 4] = ["defect", "waviness", "sensor", "sensor.mode"];
 
 /// All tables of a name. What is of the wrong type is none.
 pub(super) fn all_of<'a, 'f>(name: &'static str, file: &'a DeTable<'f>) -> Vec<Found<'a, 'f>> {

@@ -330,7 +330,7 @@ impl Builder<'_> {
         // Which of the two forces belongs to which co-simulation algorithm: docs/how-to/systems.md.
         let hosted = motion == Motion::Host;
         let after =
-            if hosted { "; with its derivative by time for a master that steps all units in parallel" } else { "" };
+            if hosted { "; with its derivative by time for a host that steps all units in parallel" } else { "" };
         self.forces(ring, (of, what), "", [" of the bearing's contacts, at this moment, on", after], Q::Force);
         if hosted {
             let mean = [
@@ -350,7 +350,7 @@ impl Builder<'_> {
     }
 
     fn counter(&mut self, name: &str, text: &str, quantity: Quantity) {
-        // Not an output: there are masters that read every output as a real number.
+        // Not an output: there are hosts that read every output as a real number.
         self.push(name, text, Kind::Integer, (Causality::Local, Variability::Discrete), quantity);
     }
 }

@@ -320,8 +320,8 @@ fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize
         return 0.0;
     }
     let (a, b, c) = (fits[best - 1], fits[best], fits[best + 1]);
-    let bend = a - 2.0 * b + c;
-    let fine = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    let second = a - 2.0 * b + c;
+    let fine = if second < 0.0 { 0.5 * (a - c) / second } else { 0.0 };
     best as f64 - reach as f64 + fine
 }
 
