@@ -299,6 +299,31 @@ print("moving")
 "##;
 
 #[test]
+fn the_page_opens_with_a_ball_over_the_defect_that_carries() {
+    for (scene, stop) in [("er16k-inner", "0.5"), ("7205-inner", "0.1")] {
+        let path = page(&format!("page-opens-{scene}"), scene, &["--stop", stop, "--columns", "*"]);
+        let script = path.with_file_name("opens.py");
+        fs::write(&script, format!("{MOTION_DATA}{OPENS}")).unwrap();
+        let table = path.with_extension("csv");
+        let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+        assert_eq!(said.trim(), "carries", "{scene}");
+    }
+}
+
+/// The ball nearest to an inner defect when the page opens: it is inside, and the defect carries.
+const OPENS: &str = r##"
+k = round((motion["opens"] - motion["start"]) / motion["step"])
+(defect,), shaft = motion["defects"], numbers(motion["shaft"]["angle"])[k]
+angles = np.array([numbers(angle)[k] for angle in motion["angle"]])
+away = np.abs((angles - shaft - defect["angle"] + np.pi) % (2 * np.pi) - np.pi)
+nearest = int(np.argmin(away))
+force = numbers(motion["force"]["inner"][nearest])
+assert motion["inner"] * away[nearest] <= max(abs(end[0]) for end in defect["surface"]), away
+assert force[k] > 0.2 * force.max(), (nearest, force[k], force.max())
+print("carries")
+"##;
+
+#[test]
 fn the_cross_section_is_the_run_where_balls_move_across_the_grooves() {
     // The outer ring tilts nowhere; the inner one does with five degrees of freedom.
     for scene in ["7205-preloaded", "7205-inner"] {
@@ -362,20 +387,31 @@ fn the_envelope_of_a_band_that_is_taken_has_the_programs_own_lines() {
         eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
         return;
     };
-    let path = page("page-band", "er16k-tb1", &["--stop", "0.5"]);
-    let measured = path.with_file_name("measured.html");
-    fs::write(&measured, fs::read_to_string(&path).unwrap() + BAND).unwrap();
-    let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
-    let lines = dom.split("<pre id=\"lines\">").nth(1).unwrap().split('<').next().unwrap();
-    let ratios: Vec<f64> = lines.split(' ').map(|ratio| ratio.parse().unwrap()).collect();
-    // The band's ends are cut there and sloped in the program.
-    assert!(ratios.len() == 5 && ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.1), "{lines}");
+    let profile = common::folder("page-band-speed").join("up.csv");
+    fs::write(&profile, RUN_UP).unwrap();
+    let speed = format!("--speed-profile={}", profile.display());
+    // Without equal angles the run-up's lines are 0.2 to 0.85 of the program's.
+    for (name, asked, off) in [("page-band", ["--stop", "0.5"].as_slice(), 0.1), ("page-band-up", &[&speed], 0.15)] {
+        let path = page(name, "er16k-tb1", asked);
+        let measured = path.with_file_name("measured.html");
+        fs::write(&measured, fs::read_to_string(&path).unwrap() + BAND).unwrap();
+        let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
+        assert!(dom.contains("id=\"band-take\""), "{name}: no band to take");
+        let lines = dom.split("<pre id=\"lines\">").nth(1).unwrap().split('<').next().unwrap();
+        let ratios: Vec<f64> = lines.split(' ').map(|ratio| ratio.parse().unwrap()).collect();
+        // The band's ends are cut there and sloped in the program.
+        assert!(ratios.len() == 5 && ratios.iter().all(|ratio| (ratio - 1.0).abs() < off), "{name}: {lines}");
+    }
 }
+
+/// In 0.5 s, half of it with a speed that grows.
+const RUN_UP: &str = "time_s,speed_hz\n0,15\n0.25,20\n0.5,20\n";
 
 /// Of the band that the page begins with: heights of the first multiples of BPFO over those of the program.
 const BAND: &str = r#"<pre id="lines"></pre><script>
 Promise.all(drawn).then(() => {
-  const spectrum = DATA.spectra.find((one) => one.band), mine = envelope(DATA.motion.signal, ...spectrum.band);
+  const spectrum = DATA.spectra.find((one) => one.band), of = [...spectrum.band, spectrum.turning];
+  const mine = envelope(DATA.motion.signal, ...of);
   const there = { step: spectrum.step, y: numbers(spectrum.y) };
   const around = ({ step }, f) => [Math.floor((f - 5) / step), Math.ceil((f + 5) / step)];
   const highest = (of, f) => Math.max(...of.y.subarray(...around(of, f)));
