@@ -105,11 +105,14 @@ def envelope(axis, path):
         lines(axis, name, marks[name], colour, style, 1.5 * marks[name] if name == "FTF" else top)
     axis.plot(frequency, amplitude, color="black", linewidth=0.9, zorder=3)
     low, high = (f / 1e3 for f in said["band_hz"])
-    at = f" at the mean speed of {said['mean_speed_hz']:.4g} turns per second" if "mean_speed_hz" in said else ""
+    at = " (Hz); "
+    if "mean_speed_hz" in said:
+        # Too long for one line.
+        at = f" at the mean speed of {said['mean_speed_hz']:.4g} turns per second (Hz)\n"
     axis.set_xlim(0, top)
     axis.set_ylim(0, 1.08 * amplitude[frequency > 0.5 * said["line_width_hz"]].max())
     axis.set_xlabel(
-        f"frequency{at} (Hz); lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale"
+        f"frequency{at}lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale"
     )
     axis.set_ylabel("squared envelope\n(share of its mean)")
     axis.set_title(f"envelope, {low:.2g} to {high:.2g} kHz", fontsize=10)
