@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import plotting
+from events import NUMBERED, find_events, told
 from plotting import BLUE, GREEN, ORANGE, SKY, VERMILION, plt
 from scipy import signal
 
@@ -86,10 +87,22 @@ def profile():
     plotting.save(figure, stem)
 
 
+def number_events(axes, data, case):
+    """The paper's events of a case on all axes, its numbers at the top, and below the last what they are."""
+    signals = {"time": data["time"], "force.outer": data[f"{case} element[1].force.outer"]}
+    # At the cage's speed, without slip: 0.8 mm.
+    _, events = find_events(signals, 0.0, 0.5447e-3)
+    for name, (number, _) in NUMBERED.items():
+        for axis in axes if name in events else ():
+            event(axis, events[name][0] * 1e3, str(number), ha="right" if name == "entry" else "left")
+    lines = "\n".join(told(events, 0.0, "trace, law map"))
+    axes[-1].set_xlabel(f"time from the leading edge (ms)\n\n{lines}", loc="left")
+
+
 def epps():
     data = read("epps")
     whole = (data_folder / "profile.csv").exists()
-    figure, axes = plt.subplots(3 + whole, 1, figsize=(plotting.WIDTH, 6.8 + 2.2 * whole))
+    figure, axes = plt.subplots(3 + whole, 1, figsize=(plotting.WIDTH, 7.6 + 2.2 * whole))
     figure.suptitle("Etched spall of 0.8 mm on a 6205, 1500 N, 25 Hz", x=0.01, ha="left")
     if whole:
         draw_profile(axes[0])
@@ -120,11 +133,9 @@ def epps():
             )
         axis.set_ylabel(label)
         axis.set_xlim(-0.5, 2.5)
-        for edge in (0.0, 0.5447):
-            axis.axvline(edge, color="black", linewidth=0.8, linestyle=":")
+    number_events(axes, data, "trace map")
     axes[1].invert_yaxis()
     legend_above(axes[0], ncols=2)
-    axes[-1].set_xlabel("time from the leading edge (ms); dotted: both edges")
     figure.align_ylabels()
     plotting.save(figure, stem)
 

@@ -22,6 +22,8 @@ time = data["time"] * factor
 # Time of a turn of the shaft, at the mean speed.
 speed = abs(float(np.mean(data["shaft.speed"]))) if "shaft.speed" in data else 0.0
 turn = factor * 2 * np.pi / speed if speed > 0 else None
+# Times of all curves that are drawn: the recorder's may be bands where those of communication points are lines.
+spans = [data["time"]]
 
 
 def filtered(name):
@@ -33,6 +35,7 @@ def filtered(name):
 def curves(axis, names, colours, scale=1.0, labels=None):
     for name, colour, label in zip(names, colours, labels or names):
         source = recording if filtered(name) else data
+        spans.append(source["time"])
         plotting.curve(axis, source["time"] * factor, source[name] * scale, colour, label, turn)
 
 
@@ -102,10 +105,14 @@ def envelope(axis, path):
         lines(axis, name, marks[name], colour, style, 1.5 * marks[name] if name == "FTF" else top)
     axis.plot(frequency, amplitude, color="black", linewidth=0.9, zorder=3)
     low, high = (f / 1e3 for f in said["band_hz"])
+    at = " (Hz); "
+    if "mean_speed_hz" in said:
+        # Too long for one line.
+        at = f" at the mean speed of {said['mean_speed_hz']:.4g} turns per second (Hz)\n"
     axis.set_xlim(0, top)
     axis.set_ylim(0, 1.08 * amplitude[frequency > 0.5 * said["line_width_hz"]].max())
     axis.set_xlabel(
-        f"frequency (Hz); lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale"
+        f"frequency{at}lines are {said['line_width_hz']:.2g} Hz wide; harmonics of BPFO, BPFI and 2 BSF pale"
     )
     axis.set_ylabel("squared envelope\n(share of its mean)")
     axis.set_title(f"envelope, {low:.2g} to {high:.2g} kHz", fontsize=10)
@@ -126,7 +133,7 @@ for axis, (label, draw) in zip(times, drawn):
     axis.tick_params(labelbottom=axis is times[-1])
     if len(axis.get_legend_handles_labels()[1]) > 1:
         axis.legend(loc="lower right", bbox_to_anchor=(1, 0.93), ncols=24, handlelength=1, columnspacing=1)
-times[0].set_title(path.name + plotting.bands_said(time))
+times[0].set_title(path.name + plotting.bands_said(max(spans, key=len)))
 times[-1].set_xlabel("time (s)" if in_seconds else "time (ms)")
 times[-1].set_xlim(time[0], time[-1])
 for axis, spectrum in zip(axes[len(drawn) :, 0], spectra):

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import plotting
+from figures import GREY, from_middle, stiffness
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from plotting import BLUE, GREEN, ORANGE, VERMILION, plt
+from plotting import BLUE, GREEN, VERMILION, plt
 
-GREY = "#777777"
 stem = Path(sys.argv[1])
 data = plotting.read_csv(stem.with_name(stem.name + "-stiffness.csv"))
 critical_file = stem.with_name(stem.name + "-critical-load.csv")
@@ -16,8 +16,7 @@ variations = (
     plotting.read_csv(critical_file) if critical_file.exists() and np.isfinite(data["critical_load"]).any() else None
 )
 
-middle = 0.5 * (data["cage.angle"][0] + data["cage.angle"][-1])
-cage = np.degrees(data["cage.angle"] - middle)
+cage = from_middle(data["cage.angle"])
 load = np.hypot(data["load.x"][0], data["load.y"][0])
 direction = np.arctan2(data["load.y"][0], data["load.x"][0])
 count = sum(name.endswith("].angle") for name in data)
@@ -39,19 +38,6 @@ def logarithmic(axis, values, headroom=1.4):
     axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
     axis.yaxis.set_minor_formatter(NullFormatter())
-
-
-def stiffness(axis):
-    axis.plot(cage, data["stiffness.healthy"] * 1e-6, color=GREY, label="without defect", linewidth=0.9)
-    if np.abs(data["stiffness.held"] / data["stiffness.free"] - 1).max() > 1e-3:
-        axis.plot(cage, data["stiffness.held"] * 1e-6, color=ORANGE, label="transverse position held", linestyle="--")
-    axis.plot(cage, data["stiffness.free"] * 1e-6, color=BLUE, label="no transverse force")
-    axis.set_ylim(0, 1.1e-6 * max(data[f"stiffness.{name}"].max() for name in ("healthy", "held")))
-    axis.set_xlim(cage[0], cage[-1])
-    axis.set_title(f"stiffness along the load, {load:g} N")
-    axis.set_ylabel("stiffness (N/µm)")
-    axis.set_xlabel(f"cage angle from the {'defect' if variations else 'load'} (degrees)")
-    axis.legend(loc="lower left" if data["stiffness.free"][0] > 0.5 * data["stiffness.healthy"][0] else "lower center")
 
 
 def critical_over_angle(axis):
@@ -113,12 +99,12 @@ def variation(axis, number, name, scale, label):
 
 if variations is None:
     figure, axes = plt.subplots(2, 1, figsize=(plotting.WIDTH, 6.4))
-    stiffness(axes[0])
+    stiffness(axes[0], data)
     distribution(axes[1])
 else:
     figure = plt.figure(figsize=(plotting.WIDTH, 9.2))
     grid = figure.add_gridspec(3, 6)
-    stiffness(figure.add_subplot(grid[0, :3]))
+    stiffness(figure.add_subplot(grid[0, :3]), data)
     critical_over_angle(figure.add_subplot(grid[0, 3:]))
     distribution(figure.add_subplot(grid[1, :]))
     panels = (

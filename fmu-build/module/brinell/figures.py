@@ -15,6 +15,7 @@ WIDTH = 9.0  # inches
 MOST = 0.5
 # At an edge pressure grows without bound as cells get smaller: what is beyond this multiple of all others is cut off.
 UNBOUNDED = 1.5
+BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#777777"
 
 
 def panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) -> Any:
@@ -29,6 +30,38 @@ def panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) ->
         axis.set_ylabel(unit)
         axis.legend(loc="upper right")
     axes[-1, 0].set_xlabel(along)
+    return figure
+
+
+def from_middle(angle: Signal) -> Signal:
+    """An angle of the cage (rad) in degrees from the middle of all, where the defect or the load is."""
+    return np.degrees(angle - 0.5 * (angle[0] + angle[-1]))
+
+
+def stiffness(axis: Any, columns: Table) -> None:
+    """The stiffness along the load over the cage angle on an axis, from columns by their names without units; with the
+    rings' other coordinate held only where that differs."""
+    cage, load = from_middle(columns["cage.angle"]), np.hypot(columns["load.x"][0], columns["load.y"][0])
+    free, held, healthy = (1e-6 * columns[f"stiffness.{name}"] for name in ("free", "held", "healthy"))
+    axis.plot(cage, healthy, color=GREY, label="without defect", linewidth=0.9)
+    if np.abs(held / free - 1).max() > 1e-3:
+        axis.plot(cage, held, color=ORANGE, label="transverse position held", linestyle="--")
+    axis.plot(cage, free, color=BLUE, label="no transverse force")
+    axis.set_ylim(0, 1.1 * max(healthy.max(), held.max()))
+    axis.set_xlim(cage[0], cage[-1])
+    axis.set_title(f"stiffness along the load, {load:g} N")
+    axis.set_ylabel("stiffness (N/µm)")
+    defect = np.isfinite(columns["critical_load"]).any()
+    axis.set_xlabel(f"cage angle from the {'defect' if defect else 'load'} (degrees)")
+    axis.legend(loc="lower left" if free[0] > 0.5 * healthy[0] else "lower center")
+
+
+def stiffness_alone(columns: Table) -> Any:
+    """The same as a figure."""
+    from matplotlib import pyplot
+
+    figure, axis = pyplot.subplots(figsize=(WIDTH, 3.4), layout="constrained")
+    stiffness(axis, columns)
     return figure
 
 

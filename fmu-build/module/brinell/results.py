@@ -13,7 +13,6 @@ from . import figures
 from .figures import Signal, Table
 
 Draw = Callable[[Mapping[str, Any], Mapping[str, Table]], Any]
-STIFFNESS = ("stiffness.free", "stiffness.held", "stiffness.healthy")
 
 
 def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, str] | None = None) -> str:
@@ -92,13 +91,16 @@ class Columns(dict[str, Signal]):
 
     def plot(self, names: str | Iterable[str] | None = None) -> Any:
         """Draws columns over the cage angle, a panel for each unit, and gives the ``matplotlib`` figure; without
-        ``names`` the stiffness along the load, with the rings' other coordinate free, held, and without defects.
+        ``names`` the stiffness along the load as the command ``brinell stiffness`` draws it.
         A name is that of a column with or without its unit."""
         heads = {head.rpartition(" [")[0]: head for head in self}
-        chosen = [names] if isinstance(names, str) else list(names or STIFFNESS)
+        chosen = [names] if isinstance(names, str) else list(names or ())
+        if not chosen:
+            return figures.stiffness_alone({name: self[head] for name, head in heads.items()})
         drawn = [heads.get(name, name) for name in chosen]
         columns = [(head.rpartition(" [")[0], head.rpartition(" [")[2].rstrip("]"), self[head]) for head in drawn]
-        return figures.panels("cage angle (rad)", next(iter(self.values())), columns)
+        cage = figures.from_middle(next(iter(self.values())))
+        return figures.panels("cage angle from the middle (degrees)", cage, columns)
 
 
 class Answer(dict[str, Any]):

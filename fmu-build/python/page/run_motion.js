@@ -208,12 +208,18 @@ const Motion = (() => {
     return best;
   }
 
+  // How far a contact is from the middle of a defect, and which comes first.
+  function distance(m, d, met, f) {
+    const k = Math.min(Math.floor(f), m.frames - 2), away = (i) => meeting(m, d, met.j, i).away;
+    return `${(1e3 * met.away).toFixed(1)} mm ${away(k + 1) < away(k) ? "before" : "past"} it`;
+  }
+
   // The element at the defect, heights enlarged: where its outline lies inside the steel both are pressed flat.
-  function drawZoom(m, d, met) {
+  function drawZoom(m, d, met, f) {
     if (!d) return;
     const { c, width, height } = surface(document.getElementById("motion-zoom"));
-    const [from, to] = ends(d.surface), half = Math.max(-from, to);
-    const room = half + Math.max(0.8 * half, 0.4e-3), deepest = Math.max(...d.surface.map((p) => Math.abs(p[1])));
+    const [from, to] = ends(d.surface), half = Math.max(-from, to), room = half + Math.max(0.8 * half, 0.4e-3);
+    const outside = met.away > room, deepest = Math.max(...d.surface.map((p) => Math.abs(p[1])));
     const low = -1.25 * deepest - 4e-6, high = Math.max(2.5 * deepest, 15e-6);
     const [left, right, top, bottom] = [46, width - 8, 26, height - 34];
     const px = (s) => left + ((s + room) / (2 * room)) * (right - left);
@@ -233,7 +239,7 @@ const Motion = (() => {
       arcs.forEach((s, i) => c.lineTo(px(s), py(heights[i])));
       c.lineTo(px(arcs[arcs.length - 1]), to);
       c.closePath();
-      c.globalAlpha = alpha;
+      c.globalAlpha = outside ? 0.4 * alpha : alpha;
       c.fillStyle = colour;
       c.fill();
       c.globalAlpha = 1;
@@ -260,7 +266,13 @@ const Motion = (() => {
     scaleBars(c, { left, right, top, bottom, px, py, low, high, room });
     const times = (bottom - top) / (high - low) / ((right - left) / (2 * room));
     const body = d.on === "element" ? `${met.out ? "outer" : "inner"} raceway, element's own defect` : `${d.on} raceway`;
-    words(c, `element ${met.j + 1}: ${newtons(met.force)}, ${body}; heights × ${Number(times.toPrecision(2))}`, left, 12);
+    const name = `element ${met.j + 1}`;
+    const said = outside ? `nearest ${name} is ${distance(m, d, met, f)}` : `${name}: ${newtons(met.force)}`;
+    words(c, `${said}, ${body}; heights × ${Number(times.toPrecision(2))}`, left, 12);
+    if (!outside || d.on === "element") return;
+    const side = Math.sign(met.along), edge = side > 0 ? right : left;
+    arrow(c, [edge - 60 * side, top + 22], [48 * side, 0], SIGNAL);
+    words(c, name, edge - 66 * side, top + 22, side > 0 ? "right" : "left", SIGNAL);
   }
 
   function scaleBars(c, { left, right, top, bottom, px, py, low, high, room }) {

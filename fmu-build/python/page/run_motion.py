@@ -22,22 +22,33 @@ def turning(run, name, speed, every):
     return steps[::every]
 
 
-def crossing(angles, about, shaft, housing, time, spins):
-    """A time in the second half of the run at which an element is over the middle of the first defect."""
+def crossing(angles, about, shaft, housing, time, spins, force):
+    """A time in the second half of the run at which an element is over the middle of the first defect: of all passages
+    that of the greatest force on the defect, and where elements are free over the middle the instant of that force."""
     if not about["defects"]:
         return float(time[len(time) // 2])
     defect = about["defects"][0]
+    elements, radius, middle = range(len(angles)), defect["radius"], defect["angle"]
     if defect["on"] == "element":
         # Its own defect faces the outer raceway.
-        angles, defect = [spins[defect["element"]]], {**defect, "angle": 0.0}
+        elements, radius, middle, angles = [defect["element"] - 1], about["element_radius"], 0.0, {}
+        angles[elements[0]] = spins[defect["element"]]
     turned = {"outer": housing, "inner": shaft}.get(defect["on"], np.zeros(len(time)))
-    best = np.inf, 0
-    for angle in angles:
-        away = np.abs((angle - turned - defect["angle"] + np.pi) % (2 * np.pi) - np.pi)
-        late = np.arange(len(time)) >= len(time) // 2
-        k = int(np.argmin(np.where(late, away, np.inf)))
-        best = min(best, (away[k], k))
-    return float(time[best[1]])
+    half = max(abs(defect["surface"][0][0]), abs(defect["surface"][-1][0])) / radius
+    late = np.arange(len(time)) >= len(time) // 2
+    passages, closest = [], (np.inf, 0)
+    for j in elements:
+        away = np.where(late, np.abs((angles[j] - turned - middle + np.pi) % (2 * np.pi) - np.pi), np.inf)
+        k = int(np.argmin(away))
+        closest = min(closest, (away[k], k))
+        within = np.flatnonzero(away <= half)
+        for piece in np.split(within, np.flatnonzero(np.diff(within) > 1) + 1) if within.size else ():
+            over, most = piece[np.argmin(away[piece])], piece[np.argmax(force[j][piece])]
+            passages.append((force[j][over], force[j][most], int(over), int(most)))
+    if not passages:
+        return float(time[closest[1]])
+    at_middle, greatest, over, most = max(passages)
+    return float(time[over if at_middle > 0 or greatest == 0 else most])
 
 
 def gaps(run, about, j, time, path):
@@ -92,6 +103,8 @@ def motion(run, about):
         for defect in about["defects"]
         if defect["on"] == "element"
     }
+    side = "inner" if about["defects"] and about["defects"][0]["on"] == "inner" else "outer"
+    on_defect = [of(f"element[{j}].force.{side}") for j in range(1, count + 1)]
     apart = [gaps(run, about, j, time, of(f"element[{j}].path")) for j in range(1, count + 1)]
     return {
         "count": count,
@@ -102,7 +115,7 @@ def motion(run, about):
         "start": float(time[0]),
         "step": float(time[1] - time[0]),
         "every": every,
-        "opens": crossing(angles, about, shaft, housing, time, spins),
+        "opens": crossing(angles, about, shaft, housing, time, spins, on_defect),
         "passage": about["passage"],
         "sensor": about["sensor"],
         "shaft": {**ring("shaft"), "angle": packed(shaft)},

@@ -212,9 +212,28 @@ function drawSpectrum(graph, spectrum) {
   return Plotly.newPlot(graph, traces, spectrumLayout(spectrum), CONFIG);
 }
 
-// The squared envelope of a band of the sensor's signal, as shares of its mean: amplitudes and the step of frequency.
-function envelope(signal, low, high) {
-  const count = signal.values.length, n = 2 ** Math.ceil(Math.log2(count)), line = 1 / (n * signal.step);
+// Of samples of the sensor their means over equal angles of the shaft between two times, as many as there are samples:
+// means, so that nothing is folded. And the step in seconds at the mean speed.
+function atEqualAngles(signal, values, { speed, from, to }) {
+  const { shaft, start, step } = DATA.motion;
+  const angle = (i) => Motion.at(shaft.angle, (signal.start + i * signal.step - start) / step);
+  const first = Math.round(from / signal.step), last = Math.min(values.length - 1, Math.round(to / signal.step));
+  const count = last - first, begin = angle(first), whole = angle(last) - begin, even = new Float64Array(count);
+  for (let i = first, at = 0; i < last; i++) {
+    const next = Math.min(count, (count * (angle(i + 1) - begin)) / whole), value = 0.5 * (values[i] + values[i + 1]);
+    while (at < next) {
+      const k = Math.floor(at), end = Math.min(k + 1, next);
+      even[k] += value * (end - at);
+      at = end;
+    }
+  }
+  return { square: even, step: Math.abs(whole) / (2 * Math.PI * speed * count) };
+}
+
+// The squared envelope of a band of the sensor's signal, as shares of its mean: amplitudes, the step of frequency, and
+// beyond what frequency nothing is left of what the window makes of 0 Hz. Where the speed changes, at equal angles.
+function envelope(signal, low, high, turning) {
+  const all = signal.values.length, n = 2 ** Math.ceil(Math.log2(all)), line = 1 / (n * signal.step);
   const [re, im] = [new Float64Array(n), new Float64Array(n)];
   re.set(signal.values);
   Motion.transform(re, im);
@@ -224,13 +243,16 @@ function envelope(signal, low, high) {
     [re[k], im[k]] = inside ? [2 * re[k], -2 * im[k]] : [0, 0];
   }
   Motion.transform(re, im);
-  const square = re.subarray(0, count).map((v, i) => v * v + im[i] * im[i]);
+  const inTime = re.subarray(0, all).map((v, i) => v * v + im[i] * im[i]);
+  const { square, step } = turning ? atEqualAngles(signal, inTime, turning) : { square: inTime, step: signal.step };
+  const count = square.length;
   const mean = square.reduce((sum, v) => sum + v, 0) / count;
   // Four times as many lines as there are: a peak is seen wherever it is.
   const [y, zero] = [new Float64Array(4 * n), new Float64Array(4 * n)];
   y.set(square.map((v, i) => (v / mean - 1) * (1 - Math.cos((2 * Math.PI * (i + 0.5)) / count))));
   Motion.transform(y, zero);
-  return { step: line / 4, y: y.subarray(0, 2 * n).map((v, k) => (2 * Math.hypot(v, zero[k])) / count) };
+  const amplitudes = y.subarray(0, 2 * n).map((v, k) => (2 * Math.hypot(v, zero[k])) / count);
+  return { step: 1 / (4 * n * step), y: amplitudes, beyond: 2 / (count * step) };
 }
 
 // Another band for the spectrum of the envelope.
@@ -247,12 +269,10 @@ function offerBand(graph, spectrum) {
     const heading = graph.previousElementSibling.previousElementSibling;
     const said = `${digits(low)} to ${digits(high)} kHz`;
     heading.textContent = heading.textContent.replace(/[\d.]+ to [\d.]+ kHz/, said);
-    const { step, y } = envelope(signal, 1e3 * low, 1e3 * high);
+    const { step, y, beyond } = envelope(signal, 1e3 * low, 1e3 * high, spectrum.turning);
     const shown = Math.min(y.length, Math.ceil(spectrum.shown / step));
     const x = Array.from({ length: shown }, (_, i) => i * step), last = spectrum.marks.length;
-    // Beyond what the window makes of 0 Hz.
-    const beyond = Math.ceil(2 / (signal.values.length * signal.step) / step);
-    const top = 1.08 * y.subarray(beyond, shown).reduce((a, b) => Math.max(a, b), 0);
+    const top = 1.08 * y.subarray(Math.ceil(beyond / step), shown).reduce((a, b) => Math.max(a, b), 0);
     Plotly.restyle(graph, { x: [x], y: [Array.from(y.subarray(0, shown))] }, [last]);
     Plotly.relayout(graph, { "yaxis.range": [0, top] });
   });

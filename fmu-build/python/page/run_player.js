@@ -14,7 +14,7 @@ function startMotion() {
   const show = () => {
     const f = (time - m.start) / m.step, d = m.defects[defect], met = Motion.nearest(m, d, f);
     Motion.drawBearing(m, f, met.j);
-    Motion.drawZoom(m, d, met);
+    Motion.drawZoom(m, d, met, f);
     Motion.drawSignal(m, time);
     Section.draw(m, met.j, f);
     Motion.cursor(time);

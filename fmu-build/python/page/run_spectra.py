@@ -67,7 +67,11 @@ def spectra(about):
         data = plotting.read_csv(about["envelope"])
         said = json.loads(Path(about["envelope"]).with_suffix(".json").read_text(encoding="utf-8"))
         low, high = (f / 1e3 for f in said["band_hz"])
-        at = f", at the mean speed of {said['mean_speed_hz']:.4g} turns per second" if "mean_speed_hz" in said else ""
+        speed = said.get("mean_speed_hz")
+        at = f", at the mean speed of {speed:.4g} turns per second" if speed else ""
+        # Where the speed changes, the envelope is taken in time and then at equal angles between these times.
+        used = about["orders"]["said"] if speed else {}
+        turning = {"speed": speed, "from": used["from_s"], "to": used["to_s"]} if speed else None
         yield (
             f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; lines are {said['line_width_hz']:.2g} Hz wide",
             spectrum(
@@ -76,7 +80,8 @@ def spectra(about):
                 said["line_width_hz"],
                 said["frequencies_hz"],
                 about["count"],
-                band=None if "mean_speed_hz" in said else said["band_hz"],
+                band=said["band_hz"],
+                turning=turning,
                 log=False,
                 unit="Hz",
                 name="squared envelope",

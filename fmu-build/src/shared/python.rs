@@ -23,6 +23,8 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("check.py", include_str!("../../python/check.py")),
     ("contact.py", include_str!("../../python/contact.py")),
     ("demo.py", include_str!("../../python/demo.py")),
+    ("events.py", include_str!("../../python/events.py")),
+    ("figures.py", include_str!("../../module/brinell/figures.py")),
     ("host.py", include_str!("../../python/host.py")),
     ("paper.py", include_str!("../../python/paper.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),

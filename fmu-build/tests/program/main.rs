@@ -13,6 +13,7 @@ mod modes;
 mod notebooks;
 mod paper;
 mod run_figure;
+mod run_motion;
 mod run_options;
 mod run_page;
 mod run_player;

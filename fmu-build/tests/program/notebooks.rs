@@ -279,7 +279,11 @@ assert len({column.size for column in table.values()}) == 1
 modes = brinell.modes("er16k-tb1-hosted-shaft", load=400)
 assert "undamped_frequency_hz" in modes._repr_html_() and "stiffness.free [N/m]" in table._repr_html_()
 (axis,) = table.plot().axes
-assert axis.get_ylabel() == "N/m" and len(axis.lines) == 3, axis
+assert (axis.get_xlabel(), axis.get_ylabel()) == ("cage angle from the defect (degrees)", "stiffness (N/µm)"), axis
+assert axis.get_ylim()[0] == 0 and all(np.abs(line.get_xdata()).max() > 10 for line in axis.lines), axis.get_ylim()
+said = {line.get_label(): line.get_ydata() for line in axis.lines}
+assert np.allclose(said["no transverse force"], 1e-6 * table["stiffness.free [N/m]"], rtol=1e-12), said
+assert "without defect" in said and not any("stiffness" in name for name in said), said
 assert [axis.get_ylabel() for axis in table.plot(["shaft.y", "load.y [N]"]).axes] == ["m", "N"]
 figure = modes.plot()
 assert [axis.get_xlabel() for axis in figure.axes] == ["cage angle from the defect (degrees)"] * 2

@@ -44,6 +44,21 @@ fn a_run_of_eight_passages_shows_the_envelopes_spectrum_with_the_bearings_freque
 }
 
 #[test]
+fn a_figure_says_its_recorders_bands_and_that_a_run_ups_frequencies_are_at_the_mean_speed() {
+    common::python();
+    let out = common::folder("run-figure-up");
+    fs::create_dir_all(&out).unwrap();
+    let profile = out.join("up.csv");
+    fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,20\n0.3,20\n").unwrap();
+    // 15 360 samples of the recorder are bands; 3001 communication points are lines.
+    run("er16k-tb1", &out, &[&format!("--speed-profile={}", profile.display()), "--step", "1e-4"]);
+    // Letters are curves; what they say stands in comments.
+    let figure = fs::read_to_string(out.join("er16k-tb1.svg")).unwrap();
+    assert!(figure.contains("er16k-tb1; in each part of the time: line the middle value"), "no word of bands");
+    assert!(figure.contains("<!-- frequency at the mean speed of 18."), "an axis of the scene's own speed");
+}
+
+#[test]
 fn every_file_that_a_run_writes_is_said_and_no_other() {
     common::python();
     let folder = common::folder("run-files");

@@ -177,6 +177,39 @@ fn play_moves_the_bearing_and_pause_holds_it_and_sound_is_the_sensors_signal() {
     assert!((sound["faster"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{sound}");
 }
 
+/// What stands beside the enlarged ball when the slider is at a twentieth and so on of the run.
+const ENLARGED: &str = "(() => {
+  const { fillText } = CanvasRenderingContext2D.prototype, slider = document.getElementById('motion-time');
+  let said = [];
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...of) {
+    if (this.canvas.id === 'motion-zoom' && String(text).includes('raceway')) said.push(text);
+    return fillText.call(this, text, ...of);
+  };
+  for (let k = 1; k < 40; k++) {
+    slider.value = String(k / 40);
+    slider.dispatchEvent(new Event('input'));
+  }
+  return said;
+})()";
+
+#[test]
+fn where_no_ball_is_at_the_defect_the_page_says_how_far_the_nearest_is() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+        return;
+    };
+    let mut tab = Tab::open(&browser, &page("page-enlarged", "6205-spall-5deg", &["--stop", "0.1"]));
+    let said = tab.said(ENLARGED);
+    let said: Vec<&str> = said.as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
+    assert_eq!(said.len(), 39, "{said:?}");
+    let (far, near): (Vec<&str>, Vec<&str>) = said.iter().partition(|text| text.starts_with("nearest element"));
+    assert!(near.iter().all(|text| text.contains(" N, outer raceway")) && !near.is_empty(), "{near:?}");
+    for side in [" mm before it, outer raceway", " mm past it, outer raceway"] {
+        assert!(far.iter().any(|text| text.contains(side)), "{side}: {far:?}");
+    }
+    assert!(far.iter().all(|text| !text.contains(" N,")), "a force elsewhere is not one at the defect: {far:?}");
+}
+
 #[test]
 fn sound_of_a_run_whose_sensor_stays_as_it_is_says_so() {
     let Some(browser) = browser() else {
