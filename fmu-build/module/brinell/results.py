@@ -31,6 +31,17 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
     return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
 
 
+def _pandas() -> Any:
+    """The package pandas, which is no requirement of this one."""
+    try:
+        import pandas
+    except ModuleNotFoundError as error:
+        if error.name != "pandas":
+            raise
+        raise ImportError("to_pandas() needs pandas, which is not installed: pip install pandas") from None
+    return pandas
+
+
 class Run(Mapping[str, Signal]):
     """Signals of a run by name, each with one sample per communication point.
 
@@ -61,8 +72,7 @@ class Run(Mapping[str, Signal]):
 
     def to_pandas(self) -> Any:
         """The signals as a ``pandas.DataFrame`` over the time [s]; its ``attrs["units"]`` has their units."""
-        import pandas
-
+        pandas = _pandas()
         frame = pandas.DataFrame({name: of for name, of in self.items() if name != "time"})
         frame.index = pandas.Index(self["time"], name="time [s]")
         frame.attrs["units"] = dict(self.units)
@@ -84,8 +94,7 @@ class Columns(dict[str, Signal]):
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` over the first column, the cage angle."""
-        import pandas
-
+        pandas = _pandas()
         frame = pandas.DataFrame(dict(self))
         return frame.set_index(frame.columns[0])
 
@@ -134,8 +143,7 @@ class Answer(dict[str, Any]):
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` of the rows' numbers and words."""
-        import pandas
-
+        pandas = _pandas()
         return pandas.DataFrame([dict(_flat(row)) for row in self._rows])
 
     def plot(self) -> Any:

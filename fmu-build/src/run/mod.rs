@@ -89,7 +89,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
         .map(|index| Column { index, unit: done.units[index].1 })
         .collect();
     detail!("{}: {} in {:.2} s", model.scene.name, counts(&mut model.simulation)?, begin.elapsed().as_secs_f64());
-    options.format.write(&done.signals, &columns, &path)?;
+    options.format.write(&done.signals, &columns, &table::origin(&model.scene_text), &path)?;
     println!("{}", path.display());
     if let Some(at) = done.interrupted_at {
         note!(
@@ -168,7 +168,7 @@ fn keep(recording: &Signals, patterns: &[String], folder: &Path) -> Result<()> {
     }
     let chosen: Vec<Column> = chosen.into_iter().map(|index| Column { index, unit: "" }).collect();
     let path = folder.join(name);
-    Format::Npy.write(recording, &chosen, &path)?;
+    Format::Npy.write(recording, &chosen, &[], &path)?;
     println!("{}", path.display());
     Ok(())
 }

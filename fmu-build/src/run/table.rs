@@ -44,6 +44,11 @@ pub struct Column<'a> {
     pub unit: &'a str,
 }
 
+/// What a table's metadata says of where it comes from: version and scene file.
+pub fn origin(scene: &str) -> [(&str, &str); 2] {
+    [("brinell.version", env!("CARGO_PKG_VERSION")), ("brinell.scene", scene)]
+}
+
 impl Format {
     /// The file of a scene's table. The recorder's samples have the name that ends in `.npy` alone.
     pub fn path(self, folder: &Path, scene: &str) -> PathBuf {
@@ -55,12 +60,12 @@ impl Format {
         folder.join(format!("{scene}{ending}"))
     }
 
-    /// Writes these columns of the signals.
-    pub fn write(self, signals: &Signals, columns: &[Column], path: &Path) -> Result<()> {
+    /// Writes these columns of the signals; Parquet's metadata says by these pairs of `origin` where they come from.
+    pub fn write(self, signals: &Signals, columns: &[Column], origin: &[(&str, &str)], path: &Path) -> Result<()> {
         whole_file::write_with(path, |out| match self {
             Self::Csv => as_csv(signals, columns, out),
             Self::Npy => as_npy(signals, columns, out),
-            Self::Parquet => as_parquet(signals, columns, out),
+            Self::Parquet => as_parquet(signals, columns, origin, out),
         })
     }
 }
@@ -79,22 +84,27 @@ fn as_npy(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -
 }
 
 /// Doubles with their bytes sorted by significance, which then pack well; each column's unit stands in the file's own
-/// metadata as `unit:<name>`.
-fn as_parquet(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -> Result<()> {
+/// metadata as `unit:<name>`, followed by `origin`.
+fn as_parquet(
+    signals: &Signals,
+    columns: &[Column],
+    origin: &[(&str, &str)],
+    out: &mut (dyn Write + Send),
+) -> Result<()> {
     let field = |column: &Column| {
         let built = Type::primitive_type_builder(&signals.names()[column.index], Physical::DOUBLE);
         Ok(Arc::new(built.with_repetition(Repetition::REQUIRED).build()?))
     };
     let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("run").with_fields(fields).build()?);
-    let unit = |column: &Column| {
-        KeyValue::new(format!("unit:{}", signals.names()[column.index]), Some(column.unit.to_owned()))
-    };
+    let pair = |key: String, value: &str| KeyValue::new(key, Some(value.to_owned()));
+    let units = columns.iter().map(|column| pair(format!("unit:{}", signals.names()[column.index]), column.unit));
+    let metadata = units.chain(origin.iter().map(|(key, value)| pair((*key).to_owned(), value))).collect();
     let properties = WriterProperties::builder()
         .set_dictionary_enabled(false)
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)
         .set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?))
-        .set_key_value_metadata(Some(columns.iter().map(unit).collect()))
+        .set_key_value_metadata(Some(metadata))
         .build();
     let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
     let mut group = vec![Vec::with_capacity(GROUP); columns.len()];

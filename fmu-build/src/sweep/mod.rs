@@ -294,6 +294,8 @@ fn prepare<'p>(
 
 fn bar(runs: u64, done: u64) -> ProgressBar {
     let bar = talk::bar(runs, "sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left").with_position(done);
+    // A new start forgets times, not steps: those made earlier would count as made at once with the first of now.
+    bar.tick();
     bar.reset_eta();
     bar
 }
@@ -313,7 +315,9 @@ fn tell(rows: &[Row], counts: &Counts, wanted: usize) -> Result<()> {
     let mut errors = rows.iter().filter_map(|row| Some((row.run()?, error_of(row)?)));
     let first = errors.next();
     let failed = usize::from(first.is_some()) + errors.count();
-    note!("note: {} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
+    // A remark only where there is something to remark.
+    let kind = if failed > 0 { "note: " } else { "" };
+    note!("{kind}{} runs, {} of them made now, {failed} failed", rows.len(), counts.made);
     if counts.again > 0 {
         note!("note: the signals of {} runs were gone and were made again", counts.again);
     }
@@ -326,5 +330,22 @@ fn tell(rows: &[Row], counts: &Counts, wanted: usize) -> Result<()> {
             note!("note: interrupted: what is in the table is kept; the same command makes the other {left} runs");
             Err(Interrupted.into())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    #[test]
+    fn the_rate_of_a_sweep_that_goes_on_is_that_of_the_runs_made_now() {
+        let bar = super::bar(400, 75);
+        sleep(Duration::from_millis(100));
+        bar.inc(1);
+        bar.tick();
+        let rate = bar.per_sec();
+        // One run in a tenth of a second or longer.
+        assert!(rate > 0.0 && rate < 10.5, "{rate}/s");
     }
 }

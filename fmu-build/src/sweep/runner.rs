@@ -149,7 +149,7 @@ impl SweepRunner<'_> {
             }
         }
         self.measure(row, &scene, &done, &kept)?;
-        self.folder.write(&kept, run.index, self.sweep.rate)?;
+        self.folder.write(&kept, run.index, self.sweep.rate, &toml::to_string(&table)?)?;
         Ok(std::fs::remove_dir_all(&own).map_err(|error| NotWritten::new(&own, error))?)
     }
 

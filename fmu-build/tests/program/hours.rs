@@ -189,7 +189,7 @@ fn an_hour_with_a_recording_is_what_happens() {
 fn an_hour_with_a_data_set_is_what_happens() {
     if has_ross() {
         let page = is_what_happens("data-set.md");
-        assert!(page.contains("note: 80 runs, 80 of them made now, 0 failed"), "{page}");
+        assert!(page.contains("80 runs, 80 of them made now, 0 failed"), "{page}");
         // What guesses is right of one run in four, of 80 within 5 % of that; this is three times as far off.
         let right = page.split("\nright: ").nth(1).unwrap().split(' ').next().unwrap();
         assert!(right.parse::<f64>().unwrap() > 40.0, "{page}");

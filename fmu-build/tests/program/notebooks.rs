@@ -259,7 +259,7 @@ fn functions_of_the_module_give_what_their_names_say() {
     python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
 }
 
-/// pandas is no package of this environment: where it lacks, `to_pandas` says so by Python's own error.
+/// pandas is no package of this environment: where it lacks, `to_pandas` says how to get it.
 const FUNCTIONS: &str = r#"
 import warnings
 import brinell
@@ -319,7 +319,13 @@ assert [axis.get_ylabel() for axis in run.plot(["shaft.y", "shaft.force.y"]).axe
 try:
     import pandas
 except ModuleNotFoundError:
-    pass
+    for answer in (run, table, modes):
+        try:
+            answer.to_pandas()
+        except ImportError as error:
+            assert "pip install pandas" in str(error), error
+        else:
+            raise AssertionError("a table without pandas")
 else:
     assert run.to_pandas().attrs["units"]["shaft.y"] == "m"
     assert list(table.to_pandas().columns) == list(table)[1:]
@@ -336,7 +342,8 @@ assert said[0].filename.endswith("functions.py")
 with open("few.toml", "w") as file:
     file.write('scene = "6205-healthy"\nruns = 2\nstop_s = 0.01\nsettle_s = 0.005\n')
 with warnings.catch_warnings():
-    warnings.simplefilter("ignore")
+    # That all went well is no warning.
+    warnings.simplefilter("error")
     table = brinell.sweep("few.toml", "few", signals="array")
 assert table.name == "runs.parquet" and np.load("few/signals.npy").shape == (2, 256, 1)
 try:

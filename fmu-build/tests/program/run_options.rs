@@ -110,6 +110,8 @@ fn the_columns_that_are_asked_for_have_the_same_bits_in_every_format() {
     assert_eq!(names, some.0);
     let units = reader.metadata().file_metadata().key_value_metadata().unwrap();
     assert!(units.iter().any(|pair| pair.key == "unit:shaft.x" && pair.value.as_deref() == Some("m")), "{units:?}");
+    let text = fs::read_to_string(shipped(QUICK)).unwrap();
+    assert!(units.iter().any(|pair| pair.key == "brinell.scene" && pair.value.as_ref() == Some(&text)), "{units:?}");
     let read: Vec<Vec<f64>> = reader
         .get_row_iter(None)
         .unwrap()

@@ -188,6 +188,12 @@ fn a_sweep_that_is_killed_goes_on_where_it_was_and_has_the_bits_of_one_that_was_
     assert!(told.contains("24 runs,") && !told.contains(" 24 of them"), "{told}");
     sweep(&path, &whole, &["--signals", "parquet"]);
     same_bits(&killed, &whole);
+    let signals = File::open(whole.join("signals/run-0000003.parquet")).unwrap();
+    let signals = SerializedFileReader::new(signals).unwrap();
+    let pairs = signals.metadata().file_metadata().key_value_metadata().unwrap();
+    let scene = pairs.iter().find(|pair| pair.key == "brinell.scene").unwrap().value.as_deref().unwrap();
+    let printed = program(&path, &whole, &["--scene-of", "3"]).output().unwrap();
+    assert_eq!(scene, String::from_utf8(printed.stdout).unwrap());
     let left: Vec<_> = fs::read_dir(&killed).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 6, "design, lock, rows, table, card and signals: {left:?}");
 }

@@ -67,6 +67,7 @@ impl Model {
             rings: [ring(0), ring(1)],
             frames: Frames([0, 1, 2].map(frame)),
             curved: true,
+            tried: false,
         };
         (motion, changing(alpha, going.alpha))
     }

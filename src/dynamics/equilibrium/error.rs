@@ -32,6 +32,19 @@ pub enum EquilibriumError {
         /// Why there is no answer.
         cause: ContactError,
     },
+    /// A ball that in balance would lie where the contact law near the defect has no answer.
+    #[error(
+        "no static equilibrium: element {element}, {angle_deg:.4} degrees from the defect's centre, comes to lie where \
+         its contact has no answer: {cause}"
+    )]
+    Unsolved {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Its angle from the defect's centre (°).
+        angle_deg: f64,
+        /// Why there is no answer.
+        cause: ContactError,
+    },
     /// An element that nothing holds.
     #[error(
         "no static equilibrium: element {element} finds no balance between the raceways, {force:.3e} N are left on it \

@@ -3,6 +3,10 @@
 //! pitch radius, moments as forces there.
 //!
 //! The search begins where the bearing is about closed along the axis, in the sense of the axial load.
+//!
+//! On its way balls may come deeper than the law of contact near a defect reaches. There the search takes the smooth
+//! raceway, which pushes more, so that forces still fall as balls give way; a balance in which one stays there is
+//! refused.
 
 use super::error::EquilibriumError;
 use super::limits::{ITERATIONS, RESIDUAL, SMALLEST_RESIDUAL, Tried, UNBALANCED, as_far_as_it_pushes, longest_step};
@@ -10,6 +14,7 @@ use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, FramedKinematics, Layout, Model, RINGS, RingInSpace, Space,
 };
+use crate::dynamics::spatial::BallMotion;
 use nalgebra::{DMatrix, DVector};
 
 /// Rounding of distances of some 20 mm (m).
@@ -133,7 +138,7 @@ impl Model {
             sums.iter().enumerate().fold(0.0f64, |most, (i, load)| most.max(load.abs() / space.length(i)));
         let (mut contact_sum, mut rounding) = (0.0, 0.0);
         for (j, place) in balls.iter_mut().enumerate() {
-            let at = self.ball_motion(j, &given.still, &rings, shortcuts);
+            let at = BallMotion { tried: true, ..self.ball_motion(j, &given.still, &rings, shortcuts) };
             let cells = self.cells_of(given.cells, j);
             let (there, forces) = if self.elements_in_balance() {
                 let found = self.ball_in_balance(space, cells, *place, (&at, 0.0), shortcuts);
@@ -230,6 +235,12 @@ impl Model {
             // A ball that is just touched is out of balance by what the rounding of its place makes of it.
             let laws = [&self.inner.contact, &self.outer.contact];
             let rounded: f64 = laws.iter().map(|contact| contact.law.elastic(2.0 * ROUNDING)).sum();
+            if !force.is_finite()
+                && let Some(unsolved) = self.unsolved_contact(cells, &at, &found.forces, shortcuts)
+            {
+                let (element, angle_deg) = (j + 1, unsolved.angle.to_degrees());
+                return Err(EquilibriumError::Unsolved { element, angle_deg, cause: unsolved.cause });
+            }
             if !(force <= UNBALANCED * (sum + body) + rounded && found.at[0].abs() <= self.element_radius) {
                 return Err(EquilibriumError::Element { element: j + 1, path: found.at[0], force });
             }

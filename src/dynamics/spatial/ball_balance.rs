@@ -74,6 +74,7 @@ impl<T: Scalar> BallMotion<T> {
             rings: self.rings.map(ring),
             frames: Frames(self.frames.0.map(frame)),
             curved: self.curved,
+            tried: self.tried,
         }
     }
 
@@ -124,11 +125,12 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> BalancedBall {
         let at = &BallMotion { curved: false, ..*at };
+        let tried = BallMotion { tried: true, ..*at };
         let mut u = guess[0];
         let mut along_valley = |v: f64| {
             let mut residual = |u: f64| {
                 let place = [ByBall::variable(u, 0), ByBall::variable(v, 1)];
-                self.ball_residual(space, cells, &at.lifted(), place, ByBall::constant(omega), shortcuts).0
+                self.ball_residual(space, cells, &tried.lifted(), place, ByBall::constant(omega), shortcuts).0
             };
             u = falling_zero(u, |u| {
                 let [r, _] = residual(u);

@@ -22,6 +22,9 @@ pub(in crate::dynamics) struct BallMotion<T: Scalar = f64> {
     pub(in crate::dynamics) frames: Frames<T>,
     /// Whether derivatives are to know of curvatures along surfaces.
     pub(in crate::dynamics) curved: bool,
+    /// Whether a contact too deep for its law near a defect is taken for one of the smooth raceway, which pushes more:
+    /// a search learns from it which way to go. Where it ends is to be asked without.
+    pub(in crate::dynamics) tried: bool,
 }
 
 /// A contact of a ball.
@@ -151,7 +154,8 @@ impl Model {
             RacewaySide::Outer => at.omega,
         };
         let near = self.near_ball(side, space, &meeting, &place, &at.frames, shortcuts);
-        let (near, by_across) = near.unwrap_or((Near::unsolved(), None));
+        let beyond = || if at.tried { Near::smooth(contact.approach) } else { Near::unsolved() };
+        let (near, by_across) = near.unwrap_or_else(|_| (beyond(), None));
         let mut rate = near.rate([closing, turning], &at.frames);
         // ∂Δ/∂t: how far the contact goes across the groove as the ball moves along t, times ∂Δ/∂η.
         let by_t = by_across.map(|by_across| by_across * space.grooves[side as usize].run_across(contact.approach));

@@ -59,6 +59,7 @@ impl<T: Scalar> BallMotion<T> {
             }),
             frames: Frames(self.frames.0.map(frame)),
             curved: self.curved,
+            tried: self.tried,
         }
     }
 

@@ -27,6 +27,7 @@ impl Model {
             rings: *rings,
             frames: forces.frames,
             curved: true,
+            tried: false,
         };
         (at, alpha)
     }
@@ -48,26 +49,43 @@ impl Model {
             rings: *rings,
             frames: now.frames,
             curved: true,
+            tried: false,
         }
     }
 
     /// Keeps why a contact near a defect has no answer, if it is the cause.
     #[cold]
     pub(super) fn note_unsolved(&self, cells: [[u32; 2]; 2], at: &BallMotion, found: &BallForces, forces: &mut Forces) {
-        let Some(space) = &self.space else { return };
+        if let Some(unsolved) = self.unsolved_contact(cells, at, found, &mut forces.shortcuts) {
+            forces.unsolved = Some(unsolved);
+        }
+    }
+
+    /// The contact of a ball near a defect that has no answer there; the outer one of two.
+    #[cold]
+    pub(in crate::dynamics) fn unsolved_contact(
+        &self,
+        cells: [[u32; 2]; 2],
+        at: &BallMotion,
+        found: &BallForces,
+        shortcuts: &mut Shortcuts,
+    ) -> Option<UnsolvedContact> {
+        let space = self.space.as_ref()?;
+        let mut unsolved = None;
         for side in [RacewaySide::Inner, RacewaySide::Outer] {
             let place = &found.contacts[side as usize].place;
             let meeting = self.ball_meeting(side, cells[side as usize], at, place);
             if cells[side as usize] == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
                 continue;
             }
-            if let Err(cause) = self.near_ball(side, space, &meeting, place, &at.frames, &mut forces.shortcuts) {
+            if let Err(cause) = self.near_ball(side, space, &meeting, place, &at.frames, shortcuts) {
                 let angle = self.angle_from_defect(side, &meeting, &at.frames);
                 let [inner, outer] = &at.rings;
                 let offset = [0, 1].map(|k| outer.position[k] - inner.position[k]);
-                forces.unsolved = Some(UnsolvedContact { element: at.element, angle, offset, cause });
+                unsolved = Some(UnsolvedContact { element: at.element, angle, offset, cause });
             }
         }
+        unsolved
     }
 }
 

@@ -1,12 +1,13 @@
 //! Forces and moments on the rings by their positions and tilts, each ball staying in its balance.
 
+use super::ball_contacts::BallMotion;
 use crate::dynamics::contacts::{Record, Shortcuts};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, Space};
 
 impl Model {
     /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
-    /// balance at `balls`, u and v of each; elastic, everything standing where it is. By the first coordinates of the
-    /// rings alone, two fewer than `K`.
+    /// balance at `balls`, u and v of each; elastic, everything standing where it is, contacts as
+    /// [tried](BallMotion::tried). By the first coordinates of the rings alone, two fewer than `K`.
     pub(in crate::dynamics) fn spatial_tangent<const K: usize>(
         &self,
         space: &Space,
@@ -18,7 +19,7 @@ impl Model {
     ) -> [[f64; RINGS]; RINGS] {
         let mut sum = [[0.0; RINGS]; RINGS];
         for (j, &place) in balls.iter().enumerate() {
-            let at = self.ball_motion(j, now, rings, shortcuts);
+            let at = BallMotion { tried: true, ..self.ball_motion(j, now, rings, shortcuts) };
             let (omega, in_cells) = (at.omega, self.cells_of(cells, j));
             let found = self.ball_tangent::<f64, K>(space, in_cells, place, &at.standing(), omega, shortcuts);
             for (row, by) in sum.iter_mut().zip(found.by_position) {

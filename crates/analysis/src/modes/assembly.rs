@@ -313,7 +313,7 @@ impl Assembly {
         let found = model.equilibrium_with_cells(excitation, &mut state);
         let cells = found.map_err(|cause: EquilibriumError| StaticError::Equilibrium {
             cage_angle_deg: excitation.cage_start.to_degrees(),
-            load: self.loads[0],
+            load: [self.loads[0][0], self.loads[0][1], self.beyond[0][0]],
             cause,
         })?;
         Ok((cells, state))

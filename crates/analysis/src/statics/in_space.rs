@@ -118,7 +118,8 @@ impl BearingInSpace {
         };
         let mut state = vec![0.0; model.layout.len];
         let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(|cause| {
-            StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: shaft.load, cause }
+            let ([x, y], z) = (shaft.load, shaft.axial.load);
+            StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: [x, y, z], cause }
         })?;
         let mut forces = Forces::of(model);
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);

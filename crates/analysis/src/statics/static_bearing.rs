@@ -44,8 +44,8 @@ pub enum StaticError {
     Equilibrium {
         /// Cage angle (°).
         cage_angle_deg: f64,
-        /// Load (N).
-        load: [f64; 2],
+        /// Load along x, y and z (N).
+        load: [f64; 3],
         /// The reason.
         cause: EquilibriumError,
     },
@@ -248,8 +248,10 @@ impl StaticBearing {
             Excitation { shaft_load: load.map(Quadratic::constant), ..Excitation::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
         let found = model.equilibrium_with_cells(&excitation, &mut state);
-        let cells =
-            found.map_err(|cause| StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load, cause })?;
+        let cells = found.map_err(|cause| {
+            let [x, y] = load;
+            StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: [x, y, 0.0], cause }
+        })?;
         let mut forces = Forces::of(model);
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;

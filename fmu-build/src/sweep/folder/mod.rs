@@ -92,10 +92,10 @@ impl Folder {
         self.written.is_some_and(|written| !self.file(written, run).exists() && !self.arrays.iter().any(is_there))
     }
 
-    /// Writes the signals of a run if they are wanted, of which the first is the time.
-    pub(super) fn write(&self, kept: &Signals, run: u64, rate: f64) -> Result<()> {
+    /// Writes the signals of a run of this scene file if they are wanted, of which the first is the time.
+    pub(super) fn write(&self, kept: &Signals, run: u64, rate: f64, scene: &str) -> Result<()> {
         let Some(written) = self.written else { return Ok(()) };
-        written.write(kept, &run_name(run), rate, &self.single()).map(drop)
+        written.write(kept, &run_name(run), rate, scene, &self.single()).map(drop)
     }
 
     /// Puts the signals of all `runs` of this folder, of which some have `failed`, into one array if that is wanted and

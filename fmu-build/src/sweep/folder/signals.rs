@@ -35,15 +35,16 @@ impl SignalFormat {
         format!("{name}.{ending}")
     }
 
-    /// Writes the signals of a run, of which the first is the time (s) and the others are sensors' (m/s²), beside where
-    /// they grew, and moves them to `folder` when they are whole: a program that is ended leaves nothing there.
-    pub(super) fn write(self, kept: &Signals, name: &str, rate: f64, folder: &Path) -> Result<PathBuf> {
+    /// Writes the signals of a run of this scene file, of which the first is the time (s) and the others are sensors'
+    /// (m/s²), beside where they grew, and moves them to `folder` when they are whole: a program that is ended leaves
+    /// nothing there.
+    pub(super) fn write(self, kept: &Signals, name: &str, rate: f64, scene: &str, folder: &Path) -> Result<PathBuf> {
         let unit = |k: usize| if k == 0 { "s" } else { "m/s2" };
         let columns: Vec<_> = (0..kept.names().len()).map(|index| table::Column { index, unit: unit(index) }).collect();
         let whole = kept.path().with_file_name(self.file(name));
         match self {
             Self::Npy => std::fs::rename(kept.path(), &whole).map_err(|error| NotWritten::new(&whole, error))?,
-            Self::Parquet => Format::Parquet.write(kept, &columns, &whole)?,
+            Self::Parquet => Format::Parquet.write(kept, &columns, &table::origin(scene), &whole)?,
             Self::Wav => {
                 let sensors: Vec<usize> = (1..kept.names().len()).collect();
                 Wav { rate: Some(rate), scale: 1.0 }.write(kept, &sensors, rate, &whole)?;
