@@ -41,11 +41,14 @@ for j in range(1, 10):
         assert len(here) == len(there) and np.abs(here - there).max() <= 1e-7 * np.abs(there).max(), (j, name)
     turned = numbers(motion["angle"][j - 1]) - table[f"element[{j}].angle"][::every]
     assert np.abs((turned + np.pi) % (2 * np.pi) - np.pi).max() < 1e-5, j
-# Of the outer raceway's spall of 5 degrees the middle, within a step's way.
+# It opens with a ball over the outer raceway's spall that carries.
 k = round((motion["opens"] - motion["start"]) / motion["step"])
 angles = np.array([numbers(angle)[k] for angle in motion["angle"]])
-away = (angles - motion["defects"][0]["angle"] + np.pi) % (2 * np.pi) - np.pi
-assert np.abs(away).min() < 0.002 + 30 * motion["step"], away
+away = np.abs((angles - motion["defects"][0]["angle"] + np.pi) % (2 * np.pi) - np.pi)
+nearest = int(np.argmin(away))
+force = numbers(motion["force"]["outer"][nearest])
+assert motion["outer"] * away[nearest] <= max(abs(end[0]) for end in motion["defects"][0]["surface"]), away
+assert force[k] > 0.2 * force.max(), (nearest, force[k], force.max())
 print("moving")
 "##;
 
