@@ -247,11 +247,9 @@ impl StaticBearing {
         let excitation =
             Excitation { shaft_load: load.map(Quadratic::constant), ..Excitation::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
-        let found = model.equilibrium_with_cells(&excitation, &mut state);
-        let cells = found.map_err(|cause| {
-            let [x, y] = load;
-            StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: [x, y, 0.0], cause }
-        })?;
+        let (cage_angle_deg, [x, y]) = (cage_angle.to_degrees(), load);
+        let refused = |cause| StaticError::Equilibrium { cage_angle_deg, load: [x, y, 0.0], cause };
+        let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(refused)?;
         let mut forces = Forces::of(model);
         model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;
