@@ -57,22 +57,8 @@ fn energy_is_what_the_cage_has_put_in() {
         let v = values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]);
         0.5 * mass * v.iter().map(|v| v * v).sum::<f64>()
     };
-    // Simpson's rule over half microseconds: the fastest vibration turns by 0.2 rad in one.
-    let (h, count) = (0.5e-6, 1000);
-    let power =
-        |simulation: &mut Simulation| simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap();
-    let (mut work, mut most) = (0.0, 0.0f64);
-    let mut before = power(&mut simulation);
-    for _ in 0..count {
-        simulation.step(h).unwrap();
-        let middle = power(&mut simulation);
-        simulation.step(h).unwrap();
-        let after = power(&mut simulation);
-        // The cage's torque is that of the elements on it.
-        work -= (before + 4.0 * middle + after) * h / 3.0;
-        before = after;
-        most = most.max(kinetic(&mut simulation));
-    }
+    let mut most = 0.0f64;
+    let work = work_of_cage(&mut simulation, 1000, |simulation| most = most.max(kinetic(simulation)));
     let last = energy(&mut simulation, loads);
     assert!(most > 1e-6, "{most:e}");
     // Tolerance 1e-10 of an approach of 5 µm under 100 N, 5e-14 J, over a thousand steps that add up.

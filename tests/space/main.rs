@@ -43,6 +43,29 @@ fn started(scene: Scene) -> Simulation {
     simulation
 }
 
+/// What the cage does (J) on the elements in so many steps of a microsecond, after each of which it is looked at.
+///
+/// By Simpson's rule over half microseconds: the fastest vibration turns by 0.2 rad in one.
+fn work_of_cage(simulation: &mut Simulation, count: usize, mut look: impl FnMut(&mut Simulation)) -> f64 {
+    let h = 0.5e-6;
+    let power = |simulation: &mut Simulation| {
+        let [torque, speed] = values(simulation, ["cage.torque", "cage.speed"]);
+        torque * speed
+    };
+    let (mut work, mut before) = (0.0, power(simulation));
+    for _ in 0..count {
+        simulation.step(h).unwrap();
+        let middle = power(simulation);
+        simulation.step(h).unwrap();
+        let after = power(simulation);
+        // The cage's torque is that of the elements on it.
+        work -= (before + 4.0 * middle + after) * h / 3.0;
+        before = after;
+        look(simulation);
+    }
+    work
+}
+
 /// Values of some variables.
 fn values<const N: usize>(simulation: &mut Simulation, names: [&str; N]) -> [f64; N] {
     names.map(|name| simulation.get(name).unwrap_or_else(|error| panic!("{name}: {error}")))

@@ -140,26 +140,13 @@ fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
     let mut simulation = Simulation::new(undamped(ContactLaw::Map), [&*pit(RacewaySide::Outer)]).unwrap();
     simulation.initialize(0.0).unwrap();
     let first = energy(&mut simulation);
-    // Simpson's rule over half microseconds: the fastest vibration turns by 0.2 rad in one.
-    let (h, count) = (0.5e-6, 800);
-    let power =
-        |simulation: &mut Simulation| simulation.get("cage.torque").unwrap() * simulation.get("cage.speed").unwrap();
-    let angle = |simulation: &mut Simulation| simulation.get("element[1].contact_angle.outer").unwrap();
-    let (mut work, mut forces, mut angles) = (0.0, [f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
-    let mut before = power(&mut simulation);
-    for _ in 0..count {
-        simulation.step(h).unwrap();
-        let middle = power(&mut simulation);
-        simulation.step(h).unwrap();
-        let after = power(&mut simulation);
-        work -= (before + 4.0 * middle + after) * h / 3.0;
-        before = after;
-        for (range, value) in
-            [(&mut forces, simulation.get("element[1].force.outer").unwrap()), (&mut angles, angle(&mut simulation))]
-        {
+    let (mut forces, mut angles) = ([f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
+    let work = work_of_cage(&mut simulation, 800, |simulation| {
+        let found = values(simulation, ["element[1].force.outer", "element[1].contact_angle.outer"]);
+        for (range, value) in [&mut forces, &mut angles].into_iter().zip(found) {
             *range = [range[0].min(value), range[1].max(value)];
         }
-    }
+    });
     let lost = energy(&mut simulation) - first - work;
     println!("{lost:e} of {work:e}, forces {forces:?}, angles {angles:?}");
     // A contact of 200 N stores 0.3 mJ. What is left is Simpson's rule over steps of the map's curvature: it changes

@@ -37,6 +37,12 @@ pub fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
+/// Where the parabola through three neighbours at −1, 0 and 1 is highest; 0 if it has no maximum.
+pub fn vertex([a, b, c]: [f64; 3]) -> f64 {
+    let second = a - 2.0 * b + c;
+    if second < 0.0 { 0.5 * (a - c) / second } else { 0.0 }
+}
+
 /// Standard deviation about the mean, with n − 1; 0 of fewer than two.
 pub fn deviation(values: &[f64]) -> f64 {
     if values.len() < 2 {

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import plotting
-from events import NUMBERED, find_events, told
+from events import NUMBERED, find_events, listed
 from host import Host
 from plotting import BLUE, GREEN, SKY, VERMILION, np, plt
 
@@ -152,7 +152,7 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
             str(number), (when, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2), textcoords="offset points",
             ha="center", va="bottom", fontweight="bold",
         )
-    path.text(0.48, 0.05, "\n".join(told(events, start)), transform=path.transAxes, va="bottom", linespacing=1.5)
+    path.text(0.48, 0.05, "\n".join(listed(events, start)), transform=path.transAxes, va="bottom", linespacing=1.5)
     figure.align_ylabels()
     plotting.save(figure, stem)
 

@@ -36,7 +36,7 @@ NUMBERED = {
 }
 
 
-def told(events, start, of=""):
+def listed(events, start, of=""):
     """A line for each of the paper's events, `of` what; of one that does not come, why."""
     yield "events by the paper's numbers" + (f": {of}" if of else "")
     for name, (number, words) in NUMBERED.items():

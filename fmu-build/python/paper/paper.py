@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import plotting
-from events import NUMBERED, find_events, told
+from events import NUMBERED, find_events, listed
 from plotting import BLUE, GREEN, ORANGE, SKY, VERMILION, plt
 from scipy import signal
 
@@ -95,7 +95,7 @@ def number_events(axes, data, case):
     for name, (number, _) in NUMBERED.items():
         for axis in axes if name in events else ():
             event(axis, events[name][0] * 1e3, str(number), ha="right" if name == "entry" else "left")
-    lines = "\n".join(told(events, 0.0, "trace, law map"))
+    lines = "\n".join(listed(events, 0.0, "trace, law map"))
     axes[-1].set_xlabel(f"time from the leading edge (ms)\n\n{lines}", loc="left")
 
 

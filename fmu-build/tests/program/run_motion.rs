@@ -4,15 +4,21 @@
 use crate::common;
 use crate::run_page::page;
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn the_moving_bearing_is_the_run_and_opens_with_an_element_over_the_defect() {
     let path = page("page-moving", "6205-two-defects", &["--stop", "0.2", "--columns", "*"]);
-    let script = path.with_file_name("moving.py");
-    fs::write(&script, format!("{MOTION_DATA}{MOVING}")).unwrap();
-    let table = path.with_extension("csv");
-    let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = beside_the_table(&path, MOVING);
     assert_eq!(said.trim(), "moving");
+}
+
+/// What a script says of the motion in a page and of the run's table.
+fn beside_the_table(page: &Path, script: &str) -> String {
+    let file = page.with_extension("py");
+    fs::write(&file, format!("{MOTION_DATA}{script}")).unwrap();
+    let table = page.with_extension("csv");
+    common::python().run_file(&file, [page, &table]).unwrap_or_else(|error| panic!("{error:#}"))
 }
 
 /// Reads the motion in a page, and the table.
@@ -56,10 +62,7 @@ print("moving")
 fn the_page_opens_with_a_ball_over_the_defect_that_carries() {
     for (scene, stop) in [("er16k-inner", "0.5"), ("7205-inner", "0.1")] {
         let path = page(&format!("page-opens-{scene}"), scene, &["--stop", stop, "--columns", "*"]);
-        let script = path.with_file_name("opens.py");
-        fs::write(&script, format!("{MOTION_DATA}{OPENS}")).unwrap();
-        let table = path.with_extension("csv");
-        let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+        let said = beside_the_table(&path, OPENS);
         assert_eq!(said.trim(), "carries", "{scene}");
     }
 }
@@ -82,10 +85,7 @@ fn the_cross_section_is_the_run_where_balls_move_across_the_grooves() {
     // The outer ring tilts nowhere; the inner one does with five degrees of freedom.
     for scene in ["7205-preloaded", "7205-inner"] {
         let path = page(&format!("page-section-{scene}"), scene, &["--stop", "0.01", "--columns", "*"]);
-        let script = path.with_file_name("section.py");
-        fs::write(&script, format!("{MOTION_DATA}{SECTION}")).unwrap();
-        let table = path.with_extension("csv");
-        let said = common::python().run_file(&script, [&path, &table]).unwrap_or_else(|error| panic!("{error:#}"));
+        let said = beside_the_table(&path, SECTION);
         assert_eq!(said.trim(), "true", "{scene}");
     }
 }

@@ -229,10 +229,9 @@ pub const fn force_slot(ring: usize, coordinate: usize) -> usize {
 impl Excitation {
     /// Both rings' motion at `tau` as the host prescribes it.
     fn prescribed(&self, ring: usize, tau: f64) -> RingInSpace {
-        let plane = if ring == 0 { &self.shaft } else { &self.housing };
-        let all = plane.iter().chain(&self.beyond[ring].motion);
         let mut found = RingInSpace::default();
-        for (k, motion) in all.enumerate() {
+        for k in 0..COORDINATES {
+            let motion = self.motion(ring, k);
             (found.position[k], found.velocity[k]) = (motion.at(tau), motion.rate_at(tau));
         }
         found

@@ -266,11 +266,12 @@ fn check_samples(name: &str, samples: &[f64]) -> Result<(), SizingError> {
     if high - low < SMALLEST || low < -LARGEST || high > LARGEST {
         return Err(SizingError::Magnitude { name, low, high, lowest: SMALLEST, highest: LARGEST });
     }
-    let seconds: Vec<f64> = samples.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
-    let still = STILL * statistics::median(&seconds);
+    let differences: Vec<f64> = samples.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs()).collect();
+    let still = STILL * statistics::median(&differences);
     for value in [low, high] {
         let near = |w: &[f64]| w.iter().all(|x| (x - value).abs() <= NEARLY * (high - low));
-        let kept: Vec<bool> = samples.windows(3).zip(&seconds).map(|(w, &second)| second <= still && near(w)).collect();
+        let kept: Vec<bool> =
+            samples.windows(3).zip(&differences).map(|(w, &second)| second <= still && near(w)).collect();
         let runs = kept.chunk_by(|a, b| a == b).filter(|run| run[0] && run.len() >= STILL_RUN);
         let nearly: usize = runs.map(|run| run.len() + 2).sum();
         let percent = 100.0 * in_runs_at(samples, value).max(nearly) as f64 / samples.len() as f64;

@@ -149,9 +149,7 @@ fn jumps(level: &[f64], width: usize) -> Vec<f64> {
 
 fn vertex(values: &[f64], i: usize) -> f64 {
     let n = values.len();
-    let (a, b, c) = (values[(i + n - 1) % n], values[i], values[(i + 1) % n]);
-    let second = a - 2.0 * b + c;
-    if second < 0.0 { (0.5 * (a - c) / second).clamp(-0.5, 0.5) } else { 0.0 }
+    statistics::vertex([values[(i + n - 1) % n], values[i], values[(i + 1) % n]]).clamp(-0.5, 0.5)
 }
 
 #[cfg(test)]

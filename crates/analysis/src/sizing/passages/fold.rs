@@ -319,10 +319,7 @@ fn best_shift(log: &[f64], start: f64, step: f64, template: &[f64], reach: isize
         // No maximum inside: this passage is lost in noise, let it go with its neighbours.
         return 0.0;
     }
-    let (a, b, c) = (fits[best - 1], fits[best], fits[best + 1]);
-    let second = a - 2.0 * b + c;
-    let fine = if second < 0.0 { 0.5 * (a - c) / second } else { 0.0 };
-    best as f64 - reach as f64 + fine
+    best as f64 - reach as f64 + statistics::vertex([fits[best - 1], fits[best], fits[best + 1]])
 }
 
 fn running_median(values: &[f64], half: usize) -> Vec<f64> {

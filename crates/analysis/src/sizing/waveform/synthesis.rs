@@ -181,7 +181,6 @@ pub fn best_shift(measured: &[f64], simulated: &[f64]) -> BestShift {
     };
     let at = |i: usize| correlation[i % n].abs();
     let (a, b, c) = (at(best + n - 1), at(best), at(best + 1));
-    let bend = a - 2.0 * b + c;
-    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    let shift = crate::statistics::vertex([a, b, c]);
     BestShift { shift: (best as f64 + shift) / n as f64, similarity: b - 0.25 * (a - c) * shift }
 }

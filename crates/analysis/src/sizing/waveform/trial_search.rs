@@ -164,10 +164,8 @@ pub(crate) fn top(fits: &[Fit], target: &[f64]) -> Option<Top> {
     if i == 0 || i + 1 == fits.len() {
         return Some(Top { length, similarity: like[i], index: i });
     }
-    let (a, b, c) = (like[i - 1], like[i], like[i + 1]);
-    let bend = a - 2.0 * b + c;
-    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
-    Some(Top { length: length + shift * FINE, similarity: b, index: i })
+    let shift = crate::statistics::vertex([like[i - 1], like[i], like[i + 1]]);
+    Some(Top { length: length + shift * FINE, similarity: like[i], index: i })
 }
 
 /// Lengths from one to another (degrees).
