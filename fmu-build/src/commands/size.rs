@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use brinell::scene::{self, Scene};
+use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
 use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
@@ -80,7 +81,8 @@ pub fn command(
     options: &Options,
     folder: &Path,
 ) -> Result<()> {
-    let scene = bearing.scene()?;
+    // In space balls pass a spall as often as the contact angle says under which they run.
+    let scene = with_operating_angle(&bearing.scene()?).into_owned();
     let recordings = read(recordings, options, &scene.bearing)?;
     for (r, speed) in recordings.iter().zip(options.speeds.iter().cycle()) {
         // Times that are read as numbers leave some 1e-13 of the rate over.

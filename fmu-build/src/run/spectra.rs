@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::Scene;
+use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::spectra::{EnvelopeSpectrum, EvenAngles, OrderSpectrum, envelope_spectrum};
 use serde_json::{Value, json};
 
@@ -125,7 +126,7 @@ impl<'a> Spectra<'a> {
                 return None;
             }
         }
-        let frequencies = Frequencies::of(&scene);
+        let frequencies = Frequencies::of(&with_operating_angle(&scene));
         (frequencies.bpfo > 0.0 && frequencies.bpfi > 0.0).then_some((frequencies, scene.shaft_speed.abs() / TAU))
     }
 

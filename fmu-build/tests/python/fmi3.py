@@ -22,14 +22,23 @@ def terminals(fmu):
         tree = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
         assert archive.read("terminalsAndIcons/icon.png").startswith(b"\x89PNG")
     etree.XMLSchema(etree.parse(str(SCHEMA))).assertValid(tree)
-    names = {v.name for v in fmpy.read_model_description(fmu).modelVariables}
+    variables = fmpy.read_model_description(fmu).modelVariables
+    names = {variable.name for variable in variables}
     found = {terminal.get("name"): terminal for terminal in tree.find("Terminals")}
     assert set(found) == {"shaft", "housing"}
     for ring, terminal in found.items():
         flanges = {part.get("name"): [member.get("memberName") for member in part] for part in terminal.iter("Terminal")}
-        assert flanges["x"] == flanges["y"] == (["s", "v", "a", "f"] if f"{ring}.x" in names else ["f"]), flanges
+        moves = f"{ring}.x" in names
+        assert flanges["x"] == flanges["y"] == (["s", "v", "a", "f"] if moves else ["f"]), flanges
+        # In space the axis has one more, and with five degrees of freedom each tilt.
+        if f"{ring}.force.z" in names:
+            assert flanges["z"] == flanges["x"], flanges
+            assert flanges["tilt_x"] == flanges["tilt_y"], flanges
+            assert flanges["tilt_x"] == (["phi", "w", "a", "tau"] if f"{ring}.tilt.x" in names else ["tau"]), flanges
         within = [member.get("variableName") for member in terminal.iter("TerminalMemberVariable")]
-        assert set(within) <= names, set(within) - names
+        signals = {v.name for v in variables if v.causality in ("input", "output") and v.name.startswith(f"{ring}.")}
+        # All that a body outside exchanges with the ring; a tangent stiffness it does not.
+        assert set(within) == {name for name in signals if ".stiffness." not in name}, signals ^ set(within)
         terminal = terminal.findall("TerminalMemberVariable")
         members = [member.get("variableName") for member in terminal]
         assert f"{ring}.force.x" in members and f"{ring}.force.y" in members

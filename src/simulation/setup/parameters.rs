@@ -35,6 +35,8 @@ pub(in crate::simulation) fn with_parameters(
         match parameter {
             Parameter::RadialClearance => changed.bearing.radial_clearance = value,
             Parameter::ContactAngle => changed.bearing.set_contact_angle(value),
+            // One that the host leaves alone stays that of the free angle, which the host may have set.
+            Parameter::OperatingAngle if Some(value) == scene.bearing.given_operating_angle() => {}
             Parameter::OperatingAngle => changed.bearing.operating_angle = Some(value),
             Parameter::AcrossDamping => changed.contact.across_damping = Some(value),
             Parameter::AxialDamping(ring) => ring_of(&mut changed, ring).axial.damping = value,

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::{Defect, DefectOn, DefectShape, Motion, Scene};
+use brinell::simulation::setup::with_operating_angle;
 
 use super::Cell;
 use crate::sweep::file::{Kind as Fault, number};
@@ -62,7 +63,7 @@ fn in_the_fields_words(put: &mut Put<'_>, scene: &Scene, speed: f64, rate: f64) 
     // Without slip, as they are computed from a data sheet.
     let mut nominal = scene.clone();
     (nominal.cage.slip, nominal.cage.spin_slip) = (0.0, 0.0);
-    let Frequencies { bpfo, bpfi, bsf, ftf } = Frequencies::of(&nominal);
+    let Frequencies { bpfo, bpfi, bsf, ftf } = Frequencies::of(&with_operating_angle(&nominal));
     for (name, hertz) in [("bpfo", bpfo), ("bpfi", bpfi), ("bsf", bsf), ("ftf", ftf)] {
         put(name, Cell::Number(rounded(hertz / (scene.shaft_speed / TAU).abs())))?;
     }

@@ -117,13 +117,23 @@ impl Builder<'_> {
                                 quantity(ring, axis),
                                 unit.of(axis),
                                 0.0,
-                                size.of(axis),
+                                if prefix.is_empty() && axis == 2 { self.along(ring) } else { size.of(axis) },
                             );
                         }
                     }
                 }
                 Motion::Fixed => {}
             }
+        }
+    }
+
+    /// How far a host may move a ring along the axis: against one that stands, up to where the grooves end.
+    fn along(&self, ring: RingName) -> Size {
+        let other = if ring == RingName::Shaft { RingName::Housing } else { RingName::Shaft };
+        let Along { axis, .. } = PRESCRIBED[0].size;
+        match self.motion(other) {
+            Motion::Fixed => Size { largest: self.scene.bearing.groove_distance(), ..axis },
+            _ => axis,
         }
     }
 
@@ -193,7 +203,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Angles of rings that bear a defect or waves or turn, and the torque on an inner one that bears them.
+    /// Angles of rings that have a defect or waves or turn, and the torque on an inner one that has them.
     fn turning_outputs(&mut self) {
         if self.scene.marks_inner_ring() {
             self.ring_angle(RingName::Shaft);
