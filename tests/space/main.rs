@@ -9,6 +9,7 @@ mod defects;
 mod derivatives;
 mod laws;
 mod motion;
+mod standards;
 mod statics;
 mod topographies;
 

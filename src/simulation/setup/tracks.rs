@@ -32,7 +32,7 @@ pub(super) fn element_on_track(bearing: &Bearing, side: RacewaySide) -> ElementO
     }
 }
 
-/// How it rolls there, over a defect of the element or of the raceway; and cos α_n by which angles around what bears
+/// How it rolls there, over a defect of the element or of the raceway; and cos α_n by which angles around the body with
 /// the defect are shorter there.
 pub(super) fn rolling_on_track(bearing: &Bearing, side: RacewaySide, on_element: bool) -> (Rolling, f64) {
     let rolling = Rolling::of(bearing, side, on_element);
@@ -133,4 +133,67 @@ fn balanced_angle(scene: &Scene) -> Option<f64> {
         }
     }
     (total > 0.0).then(|| sum / total)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::contact::rolled_path::RigidPath;
+
+    /// How far into a deep spall (m) a rigid ball goes that is pushed along α and is `d` (rad) within its edge, which
+    /// is a cut through the groove along a meridian: its section with the cut touches the groove's circle.
+    fn exact(bearing: &Bearing, side: RacewaySide, alpha: f64, d: f64) -> f64 {
+        let (r, groove) = (bearing.element_radius(), bearing.groove_radii()[side as usize]);
+        let sense = if side == RacewaySide::Outer { 1.0 } else { -1.0 };
+        let centre = side.radius(bearing) - sense * groove;
+        let is_free = |path: f64| {
+            let from_centre = groove - r + path;
+            let (g, h) = (centre + sense * from_centre * libm::cos(alpha), from_centre * libm::sin(alpha));
+            let [g_cut, across] = [g * libm::cos(d), g * libm::sin(d)];
+            libm::hypot(g_cut - centre, h) < groove - (r * r - across * across).sqrt()
+        };
+        let [mut free, mut beyond] = [0.0, 1e-4];
+        for _ in 0..60 {
+            let middle = 0.5 * (free + beyond);
+            if is_free(middle) { free = middle } else { beyond = middle }
+        }
+        free
+    }
+
+    #[test]
+    fn an_edge_at_a_contact_angle_lets_a_ball_in_as_far_as_the_track_says_and_that_is_nearly_exact() {
+        // A 6205 with 5 µm; degrees, then for edges 0.2 and 0.4 mm away at the groove's bottom, outer and inner,
+        // micrometres of the exact ball and of the track.
+        let table = [
+            (0.0, [[4.189532, 4.189532], [16.795320, 16.795320], [6.327068, 6.327068], [25.343306, 25.343306]]),
+            (15.0, [[4.163131, 4.163240], [16.687693, 16.689345], [6.385645, 6.386196], [25.573683, 25.581426]]),
+            (25.0, [[4.116985, 4.117276], [16.499696, 16.504094], [6.488262, 6.489734], [25.977806, 25.998479]]),
+            (40.0, [[4.008642, 4.009314], [16.058960, 16.069105], [6.730333, 6.733747], [26.933861, 26.981830]]),
+        ];
+        let mut bearing = Bearing { radial_clearance: 5e-6, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
+        bearing.degrees_of_freedom = DegreesOfFreedom::Three;
+        for (degrees, expected) in table {
+            let alpha = f64::to_radians(degrees);
+            bearing.operating_angle = Some(alpha);
+            let edges = [(RacewaySide::Outer, DefectOn::Outer), (RacewaySide::Inner, DefectOn::Inner)]
+                .into_iter()
+                .flat_map(|side| [(side, 0.2e-3), (side, 0.4e-3)]);
+            for (((side, on), arc), [by_ball, by_track]) in edges.zip(expected) {
+                let (half, deep) = (4e-3, 1e-3);
+                let spall = [(-half, 0.0), (-half, deep), (half, deep), (half, 0.0)];
+                let longer = defect_radius(&bearing, on) / on.radius(&bearing);
+                let (rolling, cos) = rolling_on_track(&bearing, side, false);
+                let path = RigidPath::new(&spall.map(|(s, depth)| (s * longer, depth)), rolling).unwrap();
+                let angle = (arc - half) / on.radius(&bearing);
+                let found = 1e6 * path.turned_slower(cos).at(0, angle).path;
+                let ball = 1e6 * exact(&bearing, side, alpha, arc / on.radius(&bearing));
+                // Six decimals are given.
+                assert!((found - by_track).abs() < 6e-7, "{degrees} {side:?} {arc}: {found} {by_track}");
+                assert!((ball - by_ball).abs() < 6e-7, "{degrees} {side:?} {arc}: {ball} {by_ball}");
+                assert!((found / ball - 1.0).abs() <= 2e-3, "{degrees} {side:?} {arc}: {found} {ball}");
+            }
+        }
+    }
 }
