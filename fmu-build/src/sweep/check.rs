@@ -55,7 +55,7 @@ pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool
 
 /// The run of a kind with the first value of every key.
 fn first(sweep: &Sweep, point: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
-    let Point { kind, profile, mut values } = sweep.point(point);
+    let Point { kind, profile, mut values } = sweep.point(point, 0);
     let low = |entry: &super::file::Entry<[f64; 2]>| {
         (entry.key.clone(), super::design::drawn(entry.of, 0.0, is_whole(&entry.key)))
     };

@@ -1,6 +1,6 @@
 //! The design of a sweep: which values each run has. Run i takes point i of the grid, modulo its size, and random
 //! values that depend on the seed, the key and i alone: a longer sweep begins with the shorter one, and a further key
-//! changes nothing of the others.
+//! changes nothing of the others. Where a defect grows, i counts bearings, and each has a run for every stage.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -84,13 +84,14 @@ pub(super) struct Point {
 impl Sweep {
     /// Run number `index`; `is_whole` says which keys take whole numbers only.
     pub(super) fn run(&self, index: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
-        let Point { kind, profile, mut values } = self.point(index % self.points());
+        let bearing = self.bearing(index);
+        let Point { kind, profile, mut values } = self.point(bearing % self.points(), index % self.stages());
         for entry in &self.random {
-            let draw = uniform(self.seed, checksum(entry.key.as_bytes()), index as i64);
+            let draw = uniform(self.seed, checksum(entry.key.as_bytes()), bearing as i64);
             values.push((entry.key.clone(), drawn(entry.of, draw, is_whole(&entry.key))));
         }
         let within = |key: &str, [low, high]: [f64; 2]| {
-            low + (high - low) * uniform(self.seed, checksum(key.as_bytes()), index as i64)
+            low + (high - low) * uniform(self.seed, checksum(key.as_bytes()), bearing as i64)
         };
         let noise = Noise {
             ratio: self.noise.ratio.map(|limits| within(NOISE_RATIO, limits)),
@@ -103,8 +104,9 @@ impl Sweep {
         Run { index, kind, profile, values, noise }
     }
 
-    /// A point of the grid: kinds take turns first, then the last key of the grid, speed profiles at last.
-    pub(super) fn point(&self, number: u64) -> Point {
+    /// A point of the grid: kinds take turns first, then the last key of the grid, speed profiles at last; what grows
+    /// has the size of this stage.
+    pub(super) fn point(&self, number: u64, stage: u64) -> Point {
         let mut rest = number;
         let mut next = |count: usize| {
             let count = count.max(1) as u64;
@@ -114,7 +116,10 @@ impl Sweep {
         };
         let kind = self.kinds.get(next(self.kinds.len())).copied();
         let mut values: Vec<(String, Value)> = Vec::with_capacity(self.grid.len() + self.random.len());
-        for entry in self.grid.iter().rev() {
+        for entry in self.grid[self.fixed().len()..].iter() {
+            values.push((entry.key.clone(), entry.of[stage as usize].clone()));
+        }
+        for entry in self.fixed().iter().rev() {
             values.push((entry.key.clone(), entry.of[next(entry.of.len())].clone()));
         }
         values.reverse();
@@ -169,13 +174,13 @@ mod tests {
     fn every_point_of_the_grid_kind_and_speed_comes_once_before_any_comes_twice() {
         let sweep = Sweep::read(FILE).unwrap().0;
         assert_eq!(sweep.points(), 24);
-        let points: Vec<String> = (0..24).map(|number| format!("{:?}", sweep.point(number))).collect();
+        let points: Vec<String> = (0..24).map(|number| format!("{:?}", sweep.point(number, 0))).collect();
         let mut different = points.clone();
         different.sort();
         different.dedup();
         assert_eq!(different.len(), 24);
         // Kinds take turns first.
-        let kinds: Vec<_> = (0..4).map(|number| sweep.point(number).kind.unwrap().word()).collect();
+        let kinds: Vec<_> = (0..4).map(|number| sweep.point(number, 0).kind.unwrap().word()).collect();
         assert_eq!(kinds, ["healthy", "inner", "healthy", "inner"]);
     }
 

@@ -110,11 +110,20 @@ impl SweepRunner<'_> {
         if let Some(kind) = run.kind {
             put("kind", Cell::Text(kind.word().to_owned()))?;
         }
+        if let Some(grown) = self.sweep.grown(run.index) {
+            put("bearing", Cell::Whole(self.sweep.bearing(run.index) as i64))?;
+            if run.kind != Some(Fault::Healthy) {
+                put("label_growth", Cell::Number(grown))?;
+            }
+        }
         if let Some(profile) = run.profile {
             put("speed_profile", Cell::Text(self.sweep.speed_profiles[profile].clone()))?;
         }
         if let Some(split) = &self.sweep.split {
-            put("split", Cell::Text(split.part(self.sweep.seed, run.index, &run.values).to_owned()))?;
+            put(
+                "split",
+                Cell::Text(split.part(self.sweep.seed, self.sweep.bearing(run.index), &run.values).to_owned()),
+            )?;
         }
         if let Some(noise) = run.noise {
             let drawn = [("noise_db", noise.ratio), ("noise_rms_m_s2", noise.floor)];

@@ -159,16 +159,16 @@ fn inner<'t, 'k>(table: &'t mut Table, key: &'k str) -> Result<(&'t mut Table, &
     Ok((at, last))
 }
 
-/// A load as the scene has it.
+/// A load as the scene has it; that along the axis stays.
 fn load(present: Option<&Value>, value: &Value) -> Value {
     let Some(force) = number(value) else { return value.clone() };
-    let along = present.and_then(Value::as_array).and_then(|pair| match &pair[..] {
-        [x, y] => Some([number(x)?, number(y)?]),
-        _ => None,
-    });
-    let size = along.map_or(0.0, |[x, y]| x.hypot(y));
-    let [x, y] = along.filter(|_| size > 0.0).map_or([0.0, -1.0], |[x, y]| [x / size, y / size]);
-    Value::Array([x, y].map(|part| Value::Float(force * part)).to_vec())
+    let (along, axial) = match present.and_then(Value::as_array).map(Vec::as_slice) {
+        Some([x, y, axial @ ..]) => (number(x).zip(number(y)), axial),
+        _ => (None, &[][..]),
+    };
+    let size = along.map_or(0.0, |(x, y)| x.hypot(y));
+    let (x, y) = along.filter(|_| size > 0.0).map_or((0.0, -1.0), |(x, y)| (x / size, y / size));
+    Value::Array([x, y].map(|part| Value::Float(force * part)).into_iter().chain(axial.iter().cloned()).collect())
 }
 
 /// Force up to which the contact maps of a sweep's runs reach (N): for the largest load of all runs, so that they share

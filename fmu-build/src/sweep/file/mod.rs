@@ -1,12 +1,12 @@
 //! The file of a sweep: TOML that says which scene is run, and what changes from run to run.
 
+mod growth;
 mod kind;
 mod split;
 
 use std::ops::RangeInclusive;
 
-use brinell::scene::nearest;
-use brinell_scene_file::toml_fault;
+use brinell_scene_file::{nearest, toml_fault};
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
@@ -15,7 +15,7 @@ use crate::run::noise::{Color, FLOORS, NoiseLimits, RATIOS};
 pub(super) use kind::Kind;
 pub(super) use split::{PARTS, Split};
 
-/// Keys of the file itself, and its three tables of keys of a scene.
+/// Keys of the file itself, and its tables of keys of a scene.
 const KEYS: [&str; 15] = [
     "scene",
     "runs",
@@ -33,7 +33,7 @@ const KEYS: [&str; 15] = [
     "split",
     "split_by",
 ];
-const TABLES: [&str; 3] = ["set", "grid", "random"];
+const TABLES: [&str; 4] = ["set", "grid", "growth", "random"];
 /// Samples per second that a sweep may ask for (Hz).
 const RATES: RangeInclusive<f64> = 100.0..=1e6;
 /// Runs of a sweep at most: numbers of runs have seven digits.
@@ -71,7 +71,10 @@ pub(super) struct Sweep {
     /// Parts of the data set that runs are shared out to.
     pub(super) split: Option<Split>,
     pub(super) set: Vec<Entry<Value>>,
+    /// The last key is that of `[growth]` where a defect grows.
     pub(super) grid: Vec<Entry<Vec<Value>>>,
+    /// Whether runs are stages of bearings whose defect grows.
+    pub(super) grows: bool,
     pub(super) random: Vec<Entry<[f64; 2]>>,
 }
 
@@ -90,9 +93,9 @@ impl Sweep {
         Ok((sweep, reading.faults))
     }
 
-    /// How many runs show every point of the grid, kind and speed once.
+    /// How many runs, each with all stages of a growth, show every point of the grid, kind and speed once.
     pub(super) fn points(&self) -> u64 {
-        let grid = self.grid.iter().map(|entry| entry.of.len()).chain([self.kinds.len(), self.speed_profiles.len()]);
+        let grid = self.fixed().iter().map(|entry| entry.of.len()).chain([self.kinds.len(), self.speed_profiles.len()]);
         grid.fold(1, |product, count| product.saturating_mul(count.max(1) as u64))
     }
 
@@ -128,7 +131,10 @@ impl Reading<'_, '_> {
         let rate = self.number("rate_hz", 51_200.0, "from 100 to 1000000", |value| RATES.contains(&value));
         let filter = self.switch("filter");
         let (kinds, speed_profiles, noise) = (self.kinds(), self.texts("speed_profiles"), self.noise());
-        let (set, grid, random) = (self.entries("set"), self.grid(), self.random());
+        let (set, mut grid, random) = (self.entries("set"), self.grid(), self.random());
+        let growth = self.growth();
+        let grows = growth.is_some();
+        grid.extend(growth);
         let mut sweep = Sweep {
             scene,
             runs: 0,
@@ -144,12 +150,13 @@ impl Reading<'_, '_> {
             split: None,
             set,
             grid,
+            grows,
             random,
         };
         self.given_twice(&mut sweep);
         sweep.seed = self.whole("seed", 0, i64::MAX as u64).unwrap_or(1);
-        sweep.split = self.split(sweep.seed, &sweep.grid);
-        let points = sweep.points();
+        sweep.split = self.split(sweep.seed, sweep.fixed());
+        let points = sweep.points().saturating_mul(sweep.stages());
         sweep.runs = self.whole("runs", 1, MOST).unwrap_or(points);
         if !self.file.keys().any(|key| is_meant("runs", key.get_ref())) && (!sweep.random.is_empty() || points > MOST) {
             self.fault(
@@ -167,7 +174,7 @@ impl Reading<'_, '_> {
             let hint = match nearest(known(), key.get_ref()) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!(
-                    "known here are {}, and the tables [set], [grid] and [random], which take keys of the scene",
+                    "known here are {}, and the tables [set], [grid], [growth], [random] with keys of the scene",
                     KEYS.join(", ")
                 ),
             };
@@ -309,7 +316,7 @@ impl Reading<'_, '_> {
         random
     }
 
-    /// The keys of a scene in one of the three tables, in their order in the file.
+    /// The keys of a scene in one of the tables, in their order in the file.
     fn entries(&mut self, table: &'static str) -> Vec<Entry<Value>> {
         let (Some(spanned), Some(value)) = (self.file.get(table), self.values.get(table)) else { return Vec::new() };
         let (DeValue::Table(written), Value::Table(values)) = (spanned.get_ref(), value) else {
@@ -334,7 +341,9 @@ impl Reading<'_, '_> {
             if let Some((_, first)) = all[..index].iter().find(|(other, _)| other == key) {
                 self.fault(
                     line,
-                    format!("{key} stands in line {first} already: give it in one of [set], [grid], [random]"),
+                    format!(
+                        "{key} stands in line {first} already: give it in one of [set], [grid], [growth], [random]"
+                    ),
                 );
             }
             if key == "shaft.speed_hz" && !sweep.speed_profiles.is_empty() {

@@ -6,7 +6,7 @@
 
 use brinell::numerics::checksum::checksum;
 use brinell::numerics::counter_noise::uniform;
-use brinell::scene::nearest;
+use brinell_scene_file::nearest;
 use toml::Value;
 
 use super::{Entry, Reading, number};

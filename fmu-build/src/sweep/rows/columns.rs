@@ -93,6 +93,9 @@ pub(in crate::sweep) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) 
         columns.push(Column { name: name.to_owned(), kind, meaning: meaning.to_owned() });
     };
     add("run", Kind::Whole, "number of the run, from 0");
+    if sweep.grows {
+        add("bearing", Kind::Whole, "number of the bearing whose defect grows, from 0");
+    }
     if !sweep.kinds.is_empty() {
         add("kind", Kind::Text, "body that has the defect, or healthy");
     }
@@ -122,6 +125,9 @@ pub(in crate::sweep) fn columns(sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) 
     }
     if sweep.split.is_some() {
         add("split", Kind::Text, "part of the data set: train, validation or test");
+    }
+    if sweep.grows {
+        add("label_growth", Kind::Number, "size that grows, from 0 of its first value to 1 of its last");
     }
     LABELS.iter().for_each(|(name, kind, meaning)| add(name, *kind, meaning));
     STATISTICS.iter().for_each(|(name, meaning)| add(name, Kind::Number, meaning));

@@ -1,6 +1,6 @@
 //! Labels in the words of public collections, and a floor of noise.
 
-use super::{QUICK, column, file, refused, sweep};
+use super::{QUICK, column, file, program, refused, sweep};
 use crate::common;
 use parquet::record::Field;
 use std::fs;
@@ -52,4 +52,25 @@ fn runs_are_labelled_in_the_words_of_public_collections_and_the_healthy_are_not_
 /// A sweep with another line.
 fn text_with(text: &str, line: &str) -> String {
     text.replace("seed = 3\n", &format!("seed = 3\n{line}\n"))
+}
+
+#[test]
+fn a_growing_spall_has_its_bearing_and_how_far_it_has_come_beside_it_and_an_axial_load_stays() {
+    let folder = common::folder("sweep-growth");
+    let text = "scene = \"6205-combined\"\nruns = 4\nstop_s = 0.02\nsettle_s = 0.005\nrate_hz = 25600\n\
+        kinds = [\"outer\", \"healthy\"]\n[set]\nsolver.tolerance = 1e-3\n[growth]\ndefect.length_mm = [0.2, 0.4]\n\
+        [random]\nshaft.load_n = [300, 500]\n";
+    let (path, out) = (file(&folder, text), folder.join("out"));
+    assert!(sweep(&path, &out, &[]).contains(" 0 failed"));
+    let numbers = [0.2, 0.4].map(Field::Double);
+    assert_eq!(column(&out, "bearing"), [0, 0, 1, 1].map(Field::Long));
+    assert_eq!(column(&out, "defect.length_mm")[..2], numbers);
+    assert_eq!(column(&out, "label_growth"), [Field::Double(0.0), Field::Double(1.0), Field::Null, Field::Null]);
+    let loads = column(&out, "shaft.load_n");
+    assert!(loads[0] == loads[1] && loads[1] != loads[2] && loads[2] == loads[3], "{loads:?}");
+    let scene = program(&path, &out, &["--scene-of", "0"]).output().unwrap();
+    let scene = brinell_scene_file::from_toml(&String::from_utf8(scene.stdout).unwrap()).unwrap();
+    let shipped = fs::read_to_string(common::root().join("scenes/6205-combined.toml")).unwrap();
+    assert_eq!(scene.shaft.axial.load, brinell_scene_file::from_toml(&shipped).unwrap().shaft.axial.load);
+    assert_ne!(scene.shaft.axial.load, 0.0);
 }
