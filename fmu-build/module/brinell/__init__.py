@@ -28,14 +28,16 @@ from typing import Any, Union
 import numpy as np
 
 from . import figures
-from .results import Answer, Columns, Run
+from .results import Answer, Catalogue, Columns, Run, Sweep
 
 __all__ = [
     "Answer",
     "BrinellError",
     "BrinellWarning",
+    "Catalogue",
     "Columns",
     "Run",
+    "Sweep",
     "build",
     "catalogue",
     "contact",
@@ -203,7 +205,7 @@ def size(
 
 
 def new(
-    name: str,
+    name: str | None = None,
     output: PathLike = ".",
     *,
     bearing: str = "6205",
@@ -213,19 +215,19 @@ def new(
 ) -> Path:
     """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path.
 
-    ``defect`` is a spall as ``"inner:1.2mm"``; ``axial`` a load [N] along the axis, with which rings have three degrees
-    of freedom; with ``hosted`` an FMU's host moves the shaft.
+    Without ``name`` it is called after bearing and defect. ``defect`` is a spall as ``"inner:1.2mm"``; ``axial`` a load
+    [N] along the axis, with which rings have three degrees of freedom; with ``hosted`` an FMU's host moves the shaft.
     """
     options = [f"--defect={defect}"] * bool(defect) + _optional("axial", axial) + ["--hosted"] * hosted
-    _ask("new", name, f"--bearing={bearing}", *options, "--output", os.fspath(output))
-    return Path(output) / f"{name}.toml"
+    words = [name] if name is not None else []
+    said = _ask("new", *words, f"--bearing={bearing}", *options, "--output", os.fspath(output))
+    return Path(said.splitlines()[0])
 
 
-def catalogue(begins: str = "") -> list[dict[str, Any]]:
+def catalogue(begins: str = "") -> Catalogue:
     """Bearings that a scene can name, those whose names begin so; of a single one also its frequencies, as multiples of
     the shaft's, and load ratings [N]."""
-    found: list[dict[str, Any]] = json.loads(_ask("catalogue", begins, "--json"))
-    return found
+    return Catalogue(json.loads(_ask("catalogue", begins, "--json")))
 
 
 def stiffness(scene: PathLike, *, load: float | None = None) -> Columns:
@@ -259,14 +261,14 @@ def contact(scene: PathLike, *, on: str, angle: float, force: float, pressure_li
     return Answer(found, rows, figures.pressure, tables)
 
 
-def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool | str = False) -> Path:
-    """Runs a sweep into the folder ``output`` and gives the path of its table, a Parquet file.
+def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals: bool | str = False) -> Sweep:
+    """Runs a sweep into the folder ``output`` and gives its table, a Parquet file.
 
     With ``signals`` those of all runs are written, too: a file for each, or with ``"array"`` one of all, ``signals.npy``.
     """
     words = ["--signals", *[signals] * isinstance(signals, str)] if signals else []
     said = _ask("sweep", os.fspath(file), "--output", os.fspath(output), *_optional("jobs", jobs), *words)
-    return Path(said.splitlines()[0])
+    return Sweep(Path(said.splitlines()[0]))
 
 
 def _optional(name: str, value: float | None) -> list[str]:

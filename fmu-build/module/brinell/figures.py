@@ -33,6 +33,22 @@ def panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) ->
     return figure
 
 
+def runs(table: Any, over: str | None, names: list[str]) -> Any:
+    """Columns of a sweep's table over another, a panel for each; a colour for each kind of damage."""
+    from matplotlib import pyplot
+
+    inputs = list(table.select_dtypes("number").columns)[1:]
+    along = over or next((name for name in inputs if table[name].nunique() > 1), "run")
+    figure, axes = pyplot.subplots(len(names), 1, sharex=True, squeeze=False, layout="constrained")
+    for name, axis in zip(names, axes[:, 0]):
+        for kind, part in table.groupby("label_kind"):
+            axis.plot(part[along], part[name], "o", label=kind, markersize=4, alpha=0.7)
+        axis.set_ylabel(name)
+        axis.legend(loc="upper right")
+    axes[-1, 0].set_xlabel(along)
+    return figure
+
+
 def from_middle(angle: Signal) -> Signal:
     """An angle of the cage (rad) in degrees from the middle of all, where the defect or the load is."""
     return np.degrees(angle - 0.5 * (angle[0] + angle[-1]))

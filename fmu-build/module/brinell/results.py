@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -150,6 +151,50 @@ class Answer(dict[str, Any]):
         """Draws the answer and gives the ``matplotlib`` figure: averaged passages with what was found in them, natural
         frequencies and damping over the cage angle, or pressure and stress beside Hertz's."""
         return self._draw(self, self.tables)
+
+
+class Catalogue(list[dict[str, Any]]):
+    """Bearings of the catalogue, a dictionary each."""
+
+    def _repr_html_(self) -> str:
+        rows = [dict(_flat(bearing)) for bearing in self]
+        return _table([tuple(rows[0]), *(tuple(row.get(name, "") for name in rows[0]) for row in rows)]) if rows else ""
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` with a row for each bearing."""
+        return _pandas().DataFrame([dict(_flat(bearing)) for bearing in self])
+
+
+class Sweep:
+    """The table of a sweep, a Parquet file at ``path``, whose methods it has, and for which it stands in calls."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "path":  # Not there yet, where a copy is made.
+            raise AttributeError(name)
+        return getattr(self.path, name)
+
+    def __repr__(self) -> str:
+        return f"<brinell.Sweep: {self.path}>"
+
+    def _repr_html_(self) -> str:
+        frame = self.to_pandas()
+        numbers = {str(name): np.asarray(frame[name], dtype=float) for name in frame.select_dtypes("number")}
+        return _summary(f"{len(frame)} runs in {self.path}", numbers)
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` with a row for each run."""
+        return _pandas().read_parquet(self.path)
+
+    def plot(self, over: str | None = None, names: str | Iterable[str] = ("rms_m_s2", "kurtosis")) -> Any:
+        """Draws columns of the runs over another, a colour for each kind, and gives the ``matplotlib`` figure; without
+        ``over`` over the first input that changes."""
+        return figures.runs(self.to_pandas(), over, [names] if isinstance(names, str) else list(names))
 
 
 def _table(rows: list[tuple[Any, ...]]) -> str:

@@ -167,18 +167,20 @@ def check(rotor, bearings, loads, forces):
 
 
 def element(scene, n, speeds, load, *, n_link=None, cage_angles=8, **more):
-    """A bearing that is linear about its rest under `load` (x and y, N): `ross.BearingElement` at node `n`, with tables
-    of stiffness and damping over the speeds [rad/s].
+    """A bearing that is linear about its rest under `load` (N): `ross.BearingElement` at node `n`, with tables of
+    stiffness and damping over the speeds [rad/s].
 
-    Both are between the rings, elements in balance, means over `cage_angles` positions of the cage within the pitch of
-    an element. `n_link` is the node of a housing that may move; without it the housing stands still. `more` goes to
-    ROSS's element, as `kzz`.
+    `load` is along x and y; of a scene with three degrees of freedom along z too. Stiffness and damping are between the
+    rings, elements in balance, means over `cage_angles` positions of the cage within the pitch of an element. ROSS's
+    element has k_zz and no other coupling of z. `n_link` is the node of a housing that may move; without it the housing
+    stands still. `more` goes to ROSS's element.
     """
     speeds = np.atleast_1d(np.asarray(speeds, dtype=float))
     with fmus_of({n: scene}) as fmus:
         found = np.array([linear(fmus[n], f"bearing at node {n}", speed, load, cage_angles) for speed in speeds])
-    table = {f"{kind}{a}{b}": found[:, k, i, j] for k, kind in enumerate("kc") for i, a in enumerate("xy")
-             for j, b in enumerate("xy")}  # fmt: skip
+    axes = list(enumerate("xyz"[: len(load)]))
+    table = {f"{kind}{a}{b}": found[:, k, i, j] for k, kind in enumerate("kc") for i, a in axes for j, b in axes
+             if a == b or "z" not in a + b}  # fmt: skip
     if len(speeds) == 1:
         return ross.BearingElement(n=n, n_link=n_link, **{name: row[0] for name, row in table.items()}, **more)
     return ross.BearingElement(n=n, n_link=n_link, frequency=speeds, **table, **more)
@@ -186,9 +188,15 @@ def element(scene, n, speeds, load, *, n_link=None, cage_angles=8, **more):
 
 def linear(fmu, name, speed, load, cage_angles):
     """Stiffness and damping between the rings at rest, means over the cage's angle."""
-    found = np.zeros((2, 2, 2))
+    found = np.zeros((2, len(load), len(load)))
     for k in range(cage_angles):
         bearing = Bearing(fmu, name, {"shaft.speed": speed})
+        if len(bearing.axes) != len(load):
+            bearing.close()
+            raise ValueError(
+                f"{name}: a load of {len(load)} numbers, {len(bearing.axes)} degrees of freedom: as many loads, along "
+                "x, y and z; a scene of five needs bearing.degrees_of_freedom = 3, as ROSS's element holds no tilt"
+            )
         count = sum(variable.endswith(".path") for variable in bearing.reference)
         (first,) = bearing.read(["cage.initial_angle"])
         bearing.write(["cage.initial_angle"], [first + 2 * np.pi / count * k / cage_angles])

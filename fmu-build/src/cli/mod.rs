@@ -202,8 +202,8 @@ fn build(project: &Project, options: Build) -> Result<()> {
 fn new(options: &New) -> Result<()> {
     let folder = options.output.clone().unwrap_or_default();
     match options.asked() {
-        None => new_scene::sweep(&options.name, &folder),
-        Some(asked) => new_scene::command(&options.name, &options.bearing, asked, &folder),
+        None => new_scene::sweep(options.name.as_deref().unwrap_or("sweep"), &folder),
+        Some(asked) => new_scene::command(options.name.as_deref(), &options.bearing, asked, &folder),
     }
 }
 

@@ -38,9 +38,9 @@ pub struct Scenes {
 /// Options of `new`.
 #[derive(Debug, Args)]
 pub struct New {
-    /// Name of the scene or sweep: letters, digits, - and _
-    #[arg(value_name = "NAME")]
-    pub(super) name: String,
+    /// Name of the scene or sweep: letters, digits, - and _ [default: bearing and defect, as in 6205-healthy]
+    #[arg(value_name = "NAME", required_if_eq("sweep", "true"))]
+    pub(super) name: Option<String>,
     /// The bearing, as `brinell catalogue` lists it
     #[arg(long, value_name = "NAME", default_value = "6205")]
     pub(super) bearing: String,

@@ -56,8 +56,12 @@ fn named(name: &str) -> Result<CatalogueBearing> {
 /// The scene of a bearing that is nowhere written down.
 pub(crate) fn unwritten(bearing: &str, asked: Asked) -> Result<String> {
     let bearing = named(bearing)?;
-    let name = format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy", |spall| spall.on));
-    text(&name, &bearing, asked)
+    text(&unnamed(&bearing, asked), &bearing, asked)
+}
+
+/// Name of a scene that is given none.
+fn unnamed(bearing: &CatalogueBearing, asked: Asked) -> String {
+    format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy", |spall| spall.on))
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
@@ -76,8 +80,11 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
 }
 
 /// The command: writes `<folder>/<name>.toml`.
-pub(crate) fn command(name: &str, bearing: &str, asked: Asked, folder: &Path) -> Result<()> {
-    let text = text(name, &named(bearing)?, asked)?;
+pub(crate) fn command(name: Option<&str>, bearing: &str, asked: Asked, folder: &Path) -> Result<()> {
+    let bearing = named(bearing)?;
+    let unnamed = unnamed(&bearing, asked);
+    let name = name.unwrap_or(&unnamed);
+    let text = text(name, &bearing, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     write_new(name, &text, folder)?;

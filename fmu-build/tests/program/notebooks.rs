@@ -270,7 +270,10 @@ scene = brinell.new("mine", bearing="6206", defect="inner:1.2mm")
 assert scene.is_file() and 'on = "inner"' in scene.read_text()
 assert 'motion = "host"' in brinell.new("hosted", hosted=True).read_text()
 assert "load_n = [0.0, -350.0, 200.0]" in brinell.new("pushed", axial=200.0).read_text()
-(found,) = brinell.catalogue("6205")
+unnamed = brinell.new(bearing="7205B", axial=500.0)
+assert unnamed.name == "7205b-healthy.toml" and ", 500.0]" in unnamed.read_text(), unnamed
+(found,) = listed = brinell.catalogue("6205")
+assert "<th>bpfo_orders</th>" in listed._repr_html_(), listed._repr_html_()
 # Z/2 (1 - D/Dpw) turns of the shaft, with the catalogue's own dimensions.
 ratio = found["element_diameter_mm"] / found["pitch_diameter_mm"]
 assert abs(found["bpfo_orders"] - found["element_count"] / 2 * (1 - ratio)) < 1e-3, found
@@ -346,6 +349,16 @@ with warnings.catch_warnings():
     warnings.simplefilter("error")
     table = brinell.sweep("few.toml", "few", signals="array")
 assert table.name == "runs.parquet" and np.load("few/signals.npy").shape == (2, 256, 1)
+with open(table, "rb") as file:
+    assert file.read(4) == b"PAR1"
+try:
+    import pandas
+    import pyarrow
+except ModuleNotFoundError:
+    pass
+else:
+    assert list(table.to_pandas()["run"]) == [0, 1] and "<td>rms_m_s2</td>" in table._repr_html_()
+    assert [axis.get_ylabel() for axis in table.plot().axes] == ["rms_m_s2", "kurtosis"]
 try:
     brinell.contact("er16k-tb1", on="middle", angle=0.0, force=300.0)
 except brinell.BrinellError as error:

@@ -12,12 +12,13 @@ from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 import numpy as np  # noqa: E402
 from bearing import SCENES, build, changed_scene  # noqa: E402
+from brinell.host import Bearing  # noqa: E402
 from brinell.ross import GRAVITY, Coupled, Speed, element, ross, simulate, unbalance  # noqa: E402
 
 LENGTH, COUNT, BEARING, DISK = 0.1, 4, 1, 2  # four elements of 0.1 m; the other bearing is at the far end
 folder = Path(sys.argv[2])
 base = SCENES / "er16k-tb1-hosted-shaft.toml"
-healthy, spalled, preloaded, towards, away = build(
+healthy, spalled, preloaded, towards, away, axial = build(
     [
         changed_scene(base, "healthy", {"defect": None, "contact": None}, folder),
         changed_scene(base, "spalled", {}, folder),
@@ -26,6 +27,7 @@ healthy, spalled, preloaded, towards, away = build(
         # A pair back to back, with five degrees of freedom.
         changed_scene(SCENES / "7205-pair.toml", "towards", {}, folder),
         changed_scene(SCENES / "7205-pair.toml", "away", {"bearing.contact_angle_deg": -25.0}, folder),
+        changed_scene(SCENES / "7205-pair.toml", "axial", {"bearing.degrees_of_freedom": 3}, folder),
     ],
     folder,
 )
@@ -87,6 +89,22 @@ def rests():
 
 def linear_elements(loads, speeds):
     return [element(preloaded, n, speeds, (0.0, -load)) for n, load in loads.items()]
+
+
+def linear_along_the_axis():
+    """Gives k_zz [N/m]: what 1 N more or less moves the ring by."""
+    bearing = Bearing(str(axial), "axial", {"shaft.speed": 100.0})
+    less, more = (bearing.rest(np.array([0.0, 0.0, thrust]))[2] for thrust in (499.0, 501.0))
+    bearing.close()
+    found = element(axial, 0, [100.0], (0.0, 0.0, 500.0)).kzz[0]
+    assert abs(found * (more - less) / 2.0 - 1.0) < 1e-5, (found, more, less)
+    try:
+        element(towards, 0, [100.0], (0.0, 0.0, 500.0))
+    except ValueError as error:
+        assert "degrees_of_freedom = 3" in str(error), error
+    else:
+        raise AssertionError("five degrees of freedom in an element that holds no tilt")
+    return found
 
 
 def moves_as_linear_at_one_speed():
@@ -203,8 +221,10 @@ def refuses():
 
 near, far = rests()
 refuses()
+k_zz = linear_along_the_axis()
 apart, carried = moves_as_linear_at_one_speed()
 run_up = runs_up_as_linear(carried)
 pair = moves_along_and_tilts_in_a_pair()
 print(f"rests on {near:.3f} N and {far:.3f} N; linear ROSS within {100 * apart:.2g} %, run up {100 * run_up:.2g} %; "
+      f"k_zz {k_zz:.4g} N/m; "
       f"a pair along its axis within {100 * pair[0]:.2g} %, across and tilted {100 * pair[1]:.2g} %")
