@@ -115,7 +115,7 @@ impl Bearing {
 
 impl Ring {
     /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees
-    /// of freedom (attributed to Sawalhi and Randall 2008), but for the stiffness: a shaft that is held to the ground
+    /// of freedom (attributed to Sawalhi and Randall 2008), except the stiffness: a shaft that is held to the ground
     /// as stiffly as a bearing is stiff would carry the load itself.
     pub fn default_shaft() -> Self {
         Self::supported(3.2638, 1376.8, 0.0, TiltSupport::ASSUMED)
@@ -315,7 +315,7 @@ impl SceneBuilder {
         self
     }
 
-    /// The elements' lag behind the spin of pure rolling, which counts where one bears a defect.
+    /// The elements' lag behind the spin of pure rolling, which counts where one has a defect.
     #[must_use]
     pub fn spin_slip(mut self, slip: f64) -> Self {
         self.scene.cage.spin_slip = slip;

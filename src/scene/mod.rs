@@ -24,7 +24,7 @@ pub use cage::{Cage, CageIrregularity};
 pub use check::{Remark, quantity};
 pub use contact::{Contact, ContactEdge, ContactLaw, Damping, Film};
 pub use error::{BearingError, DefectError, FreedomError, LONGEST_NAME, SceneError, WavinessError};
-pub use messages::{Bound, Limits, Plain, nearest};
+pub use messages::{Bound, Limits, Plain};
 pub use ring::{AxialSupport, Motion, RepeatedInputs, Ring, TiltSupport};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
 pub use surfaces::{Defect, DefectLimit, DefectOn, DefectShape, Waviness, WavyBody};
@@ -94,7 +94,7 @@ impl Scene {
         self.waviness.iter().any(|waves| waves.on != WavyBody::Outer)
     }
 
-    /// Whether the inner ring bears a defect or waves, so that it matters how it turns.
+    /// Whether the inner ring has a defect or waves, so that it matters how it turns.
     pub fn marks_inner_ring(&self) -> bool {
         self.defects.iter().any(|defect| defect.on == DefectOn::Inner)
             || self.waviness.iter().any(|waves| waves.on == WavyBody::Inner)

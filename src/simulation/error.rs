@@ -127,12 +127,10 @@ pub enum VariableError {
     #[error("value reference {0} is unknown: this model's references are 0 to {1}")]
     UnknownReference(u32, u32),
     /// No such name.
-    #[error("this model has no variable {name}{}", asked(.near.as_deref()))]
+    #[error("this model has no variable {name}")]
     UnknownName {
         /// The name.
         name: String,
-        /// The variable whose name is spelt most like it, if any is.
-        near: Option<String>,
     },
     /// A list that does not have as many entries as there are value references.
     #[error("{references} value references with a list of {given} for them: there must be as many of both")]
@@ -222,9 +220,4 @@ pub enum VariableError {
         /// Order asked for.
         order: i32,
     },
-}
-
-/// A question after the name that was probably meant.
-fn asked(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |near| format!(": did you mean {near}?"))
 }

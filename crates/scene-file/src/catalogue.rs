@@ -24,7 +24,7 @@
 //! 7206-B a static rating of 14.3 kN is published, which by ISO 76 takes 14 balls of 9.525 mm, and shoulders 0.32 and
 //! 0.28 of a ball's diameter high; the share of C is assumed. The number may be one off here too.
 
-use brinell::scene::nearest;
+use crate::spelling::nearest;
 
 /// Millimetres of 1/64 inch, in which balls are made.
 const STEP_OF_BALLS: f64 = 25.4 / 64.0;

@@ -8,12 +8,14 @@ mod catalogue;
 mod diagnosis;
 mod quantities;
 mod schema;
+mod spelling;
 mod tables;
 mod units;
 
 pub use catalogue::{CatalogueBearing, Inside, NotInCatalogue, catalogue, catalogued};
 pub use diagnosis::{Hint, KeyFault, SceneFileError, toml_fault};
 pub use schema::{description, schema};
+pub use spelling::nearest;
 pub use units::{DepthRemark, UnitQuestion, UnitRemark};
 
 use brinell::scene::Scene;

@@ -5,9 +5,8 @@ use std::fmt::Write;
 
 use anyhow::{Result, bail};
 use brinell::geometry::kinematics::frequencies;
-use brinell::scene::nearest;
 use brinell_analysis::statics::{dynamic_rating, static_rating};
-use brinell_scene_file::{CatalogueBearing, Inside, catalogue, catalogued};
+use brinell_scene_file::{CatalogueBearing, Inside, catalogue, catalogued, nearest};
 use serde_json::{Value, json};
 
 use super::new_scene;

@@ -1,9 +1,9 @@
 //! The columns of a run's table: which variables, in which order.
 
 use anyhow::{Result, bail};
-use brinell::scene::nearest;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell::simulation::{Simulation, SimulationError};
+use brinell_scene_file::nearest;
 
 use crate::package::description::units;
 

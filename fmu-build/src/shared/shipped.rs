@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::nearest;
+use brinell_scene_file::nearest;
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 

@@ -1,9 +1,7 @@
-//! How ranges, numbers and words are shown in messages.
+//! How ranges and numbers are shown in messages.
 
 mod display_number;
 mod limits;
-mod spelling;
 
 pub use display_number::Plain;
 pub use limits::{Bound, Limits};
-pub use spelling::nearest;

@@ -1,4 +1,4 @@
-//! A defect: which body bears it, where, and its shape.
+//! A defect: which body has it, where, and its shape.
 
 use super::super::Bearing;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// A defect of one body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Defect {
-    /// The body that bears it.
+    /// The body that has it.
     pub on: DefectOn,
     /// Angle of its centre (rad): on a ring counter-clockwise in the ring's own sense, from +x at the start unless the
     /// ring has another initial angle; on an element counter-clockwise from where it faces the outer raceway at the
@@ -17,7 +17,7 @@ pub struct Defect {
     pub shape: DefectShape,
 }
 
-/// The body that bears a defect.
+/// The body that has a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum DefectOn {
     /// The outer ring.

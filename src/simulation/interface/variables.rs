@@ -4,7 +4,7 @@
 use super::quantity::{Count, Quantity};
 use super::value_access::{self, Access};
 use super::{Inputs, dependencies, table};
-use crate::scene::{DegreesOfFreedom, Scene, nearest};
+use crate::scene::{DegreesOfFreedom, Scene};
 use crate::simulation::VariableError;
 use crate::simulation::interface::table::{Causality, Dependencies, Kind, Variable};
 use crate::surface::Surface;
@@ -39,10 +39,7 @@ impl Interface {
     /// Value reference of the variable of this name.
     pub(in crate::simulation) fn reference(&self, name: &str) -> Result<u32, VariableError> {
         let variable = self.table.iter().find(|variable| variable.name == name);
-        variable.map(|variable| variable.reference).ok_or_else(|| {
-            let near = nearest(self.table.iter().map(|variable| &*variable.name), name).map(str::to_owned);
-            VariableError::UnknownName { name: name.to_owned(), near }
-        })
+        variable.map(|variable| variable.reference).ok_or_else(|| VariableError::UnknownName { name: name.to_owned() })
     }
 
     /// The variable of a reference.

@@ -6,7 +6,7 @@ use super::locations::{Found, Location};
 use super::not_modelled::instead_of;
 use super::toml_kinds::Keys;
 use super::values;
-use brinell::scene::nearest;
+use crate::spelling::nearest;
 use toml::de::DeValue;
 
 /// Keys that a table cannot be without. The file itself is the table without a name.

@@ -4,7 +4,7 @@
 use super::all_tables::{TableOf, path};
 use super::toml_kinds::Kind;
 use crate::quantities::of_key;
-use brinell::scene::nearest;
+use crate::spelling::nearest;
 use toml::de::{DeInteger, DeValue};
 
 /// Why the value of a key of a table cannot be.

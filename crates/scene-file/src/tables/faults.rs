@@ -1,9 +1,8 @@
 //! Why tables are no scene: keys that contradict each other, and all that the check of a scene refuses.
 
 use crate::NotInCatalogue;
-use brinell::scene::{
-    BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, WavinessError, nearest,
-};
+use crate::spelling::nearest;
+use brinell::scene::{BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, WavinessError};
 use std::error::Error;
 
 /// One reason. Messages name keys with their tables, by which their lines are looked up.
