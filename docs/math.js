@@ -2,13 +2,13 @@
 // the pages use; what it does not know stands in red.
 (() => {
   const SIGNS = {
-    alpha: "α", gamma: "γ", delta: "δ", zeta: "ζ", eta: "η", theta: "θ", kappa: "κ", pi: "π", rho: "ρ", sigma: "σ", tau: "τ",
+    alpha: "α", gamma: "γ", delta: "δ", zeta: "ζ", eta: "η", theta: "θ", kappa: "κ", nu: "ν", pi: "π", rho: "ρ", sigma: "σ", tau: "τ",
     varphi: "φ", chi: "χ", psi: "ψ", omega: "ω", Delta: "Δ", Omega: "Ω", partial: "∂",
   };
   const OPERATORS = { cdot: "·", pm: "±", ge: "≥", perp: "⊥", circ: "∘", ldots: "…", sum: "∑" };
   const FUNCTIONS = ["sin", "cos", "tan", "ln", "max", "min"];
   const SPACES = { qquad: 2, quad: 1, ",": 0.17, " ": 0.25 };
-  const ACCENTS = { dot: "˙", ddot: "¨", hat: "^" };
+  const ACCENTS = { dot: "˙", ddot: "¨", hat: "^", bar: "¯" };
   const WORDS = { text: "mtext", mathrm: "mi mathvariant=\"normal\"" };
   // Without one that is made for formulas, indices stand on the line and dots in their letters.
   const FONTS = "STIX Two Math, Cambria Math, Latin Modern Math, Libertinus Math, DejaVu Math TeX Gyre, math";
