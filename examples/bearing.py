@@ -100,7 +100,7 @@ def program():
 
 
 def build(scenes, folder, *options):
-    """Builds the FMUs of scene files. Gives their paths: each bears its scene's name, whatever the file's is.
+    """Builds the FMUs of scene files. Gives their paths: each has its scene's name, whatever the file's is.
 
     `options` are words of `brinell build`, as "--fmi", "3".
     """

@@ -291,7 +291,7 @@ fn what_is_stored_is_what_the_oracle_says() {
         for (column, name) in anew.names.iter().enumerate() {
             let pairs = stored.rows.iter().zip(&anew.rows).map(|(stored, anew)| [stored[column], anew[column]]);
             let largest = pairs.clone().fold(0.0f64, |largest, [_, anew]| largest.max(anew.abs()));
-            // Equal but for roundings of another machine's arithmetic, which a run amplifies.
+            // Equal except for roundings of another machine's arithmetic, which a run amplifies.
             let off = pairs.fold(0.0f64, |off, [stored, anew]| off.max((stored - anew).abs()));
             assert!(off <= 1e-8 * largest, "{name} is off by {off:e} of {largest:e}");
         }

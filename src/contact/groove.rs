@@ -310,7 +310,7 @@ mod tests {
     #[test]
     fn a_bearing_just_closed_touches_without_force_at_its_free_contact_angle() {
         for groove in grooves() {
-            // Its balls' centres are in z = 0 on the pitch circle but for half of (f_i − f_o) D (1 − cos α°).
+            // Its balls' centres are in z = 0 on the pitch circle except for half of (f_i − f_o) D (1 − cos α°).
             let free = 25f64.to_radians();
             let radius = match groove.side {
                 RacewaySide::Inner => groove.centre_radius - groove.reach * free.cos(),

@@ -1,9 +1,9 @@
-//! The contact of an element near a defect, whatever the contact law and whichever surface bears the defect.
+//! The contact of an element near a defect, whatever the contact law and whichever surface has the defect.
 //!
 //! Each law gives an *equivalent approach* Δ(u, ψ): the force law of the smooth contact applied to Δ gives the normal
 //! force, and a direction says how it acts on the element. On the smooth raceway Δ = u and the direction is radial.
 //! Here u is the approach of the element to the smooth raceway, on which side ever, and ψ the direction in which the
-//! two bodies touch, seen in the frame of the one that bears the defect, from the defect's centre. The surface around
+//! two bodies touch, seen in the frame of the one that has the defect, from the defect's centre. The surface around
 //! the defect is cut at knots into cells inside which Δ is smooth.
 
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl<T: Scalar> Approach<T> {
     }
 
     /// From a potential's [Δ, Δ_u, Δ_s]: forces are its gradient. Per turning angle s = B ψ, B the radius of the body
-    /// that bears the defect, and the tangential force acts at the lever, the element's `distance` from the ring's
+    /// that has the defect, and the tangential force acts at the lever, the element's `distance` from the ring's
     /// centre.
     #[inline(always)]
     fn of([value, du, ds]: [T; 3], bearer_radius: f64, distance: T) -> Self {

@@ -1,4 +1,4 @@
-//! Two rigid circles that roll over each other, element and raceway, one of which bears a defect.
+//! Two rigid circles that roll over each other, element and raceway, one of which has a defect.
 //!
 //! The bearing body is smooth at the radius B₀ and has the radius B at the touched point, B₀ + h inside the outer ring
 //! and B₀ − h elsewhere; C is the radius of the other body. Let d be the angle at the bearer's centre from the line of
@@ -15,7 +15,7 @@
 use crate::numerics::sin_cos;
 use crate::scene::Bearing;
 
-/// The body that bears a defect, and the one that rolls over it.
+/// The body that has a defect, and the one that rolls over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
     /// Radius of the element r (m).
@@ -24,7 +24,7 @@ pub struct Rolling {
     pub raceway_radius: f64,
     /// Which of the two raceways.
     pub raceway: RacewaySide,
-    /// Whether the element bears the defect, and not the raceway.
+    /// Whether the element has the defect, and not the raceway.
     pub on_element: bool,
 }
 
@@ -85,7 +85,7 @@ impl Rolling {
         Self { element_radius: bearing.element_radius(), raceway_radius, raceway, on_element }
     }
 
-    /// Radius B₀ of the body that bears the defect (m).
+    /// Radius B₀ of the body that has the defect (m).
     pub fn bearer_radius(&self) -> f64 {
         if self.on_element { self.element_radius } else { self.raceway_radius }
     }
@@ -121,7 +121,7 @@ impl Rolling {
         if self.concave() { radius - self.raceway_radius } else { self.bearer_radius() - radius }
     }
 
-    /// Whether the body that bears the defect is touched from its inside.
+    /// Whether the body that has the defect is touched from its inside.
     fn concave(&self) -> bool {
         self.raceway == RacewaySide::Outer && !self.on_element
     }

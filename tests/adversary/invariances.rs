@@ -20,12 +20,12 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 /// The signals at the start and after each step, up to the first that fails.
-pub struct Course {
+pub struct Trajectory {
     samples: Vec<Vec<f64>>,
     failed: Option<Refusal>,
 }
 
-fn course(case: &Case, prepare: impl Fn(&mut Subject)) -> Course {
+fn trajectory(case: &Case, prepare: impl Fn(&mut Subject)) -> Trajectory {
     let mut samples = Vec::new();
     let mut run = || -> Result<(), Refusal> {
         let mut subject = Subject::new(case)?;
@@ -37,7 +37,7 @@ fn course(case: &Case, prepare: impl Fn(&mut Subject)) -> Course {
         Ok(())
     };
     let failed = run().err();
-    Course { samples, failed }
+    Trajectory { samples, failed }
 }
 
 /// A random scene for comparing the simulation with itself: tight, and without what the comparison has no place for.
@@ -50,19 +50,19 @@ fn scene(draw: &mut Draw, sensor: bool) -> Case {
     case
 }
 
-/// Compares the course of a scene with that of another one, which `back` brings to the first one's signals.
+/// Compares the trajectory of a scene with that of another one, which `back` brings to the first one's signals.
 fn compare(case: &Case, other: &Case, back: impl Fn(&[(String, Kind)], &[f64]) -> Vec<f64>) -> Result<(), String> {
-    compare_courses(case, course(other, |_| {}), back)
+    compare_courses(case, trajectory(other, |_| {}), back)
 }
 
 fn compare_courses(
     case: &Case,
-    other: Course,
+    other: Trajectory,
     back: impl Fn(&[(String, Kind)], &[f64]) -> Vec<f64>,
 ) -> Result<(), String> {
     let names = signals(case);
-    let base = course(case, |_| {});
-    let loose = course(&Case { tolerance: 10.0 * case.tolerance, ..case.clone() }, |_| {});
+    let base = trajectory(case, |_| {});
+    let loose = trajectory(&Case { tolerance: 10.0 * case.tolerance, ..case.clone() }, |_| {});
     if base.samples.is_empty() || other.samples.is_empty() {
         let same = base.samples.is_empty() && other.samples.is_empty();
         return if same { Ok(()) } else { Err(format!("refused once: {:?} and {:?}", base.failed, other.failed)) };
@@ -228,13 +228,13 @@ fn cutting_communication_steps_changes_nothing() {
         for _ in 0..halvings {
             cut = cut.cut(|_| 0.5);
         }
-        let whole = course(&cut, |_| {});
+        let whole = trajectory(&cut, |_| {});
         let kept = |samples: Vec<Vec<f64>>| samples.into_iter().step_by(2 << halvings).collect();
         let names = signals(&case);
-        let mut other = Course { samples: kept(whole.samples), failed: whole.failed };
+        let mut other = Trajectory { samples: kept(whole.samples), failed: whole.failed };
         // Means are those of the last part.
         let means: Vec<usize> = (0..names.len()).filter(|&i| names[i].0.contains("mean_force")).collect();
-        let base = course(&case, |_| {});
+        let base = trajectory(&case, |_| {});
         for (sample, base) in other.samples.iter_mut().zip(&base.samples) {
             for &i in &means {
                 sample[i] = base[i];
@@ -250,7 +250,7 @@ fn every_method_gives_the_same() {
         let mut case = scene(draw, true);
         case.tolerance = 1e-8;
         for method in [Method::DormandPrince, Method::PhaseFitted, Method::Rodas] {
-            compare_courses(&case, course(&case, |subject| subject.simulation.set_method(method)), unchanged)
+            compare_courses(&case, trajectory(&case, |subject| subject.simulation.set_method(method)), unchanged)
                 .map_err(|why| format!("{method:?}: {why}"))?;
         }
         Ok(())

@@ -114,7 +114,7 @@ fn the_map_follows_the_grid_and_the_grid_a_finer_one() {
             outside = of_grid;
         }
         assert!(of_map.iter().all(|&error| error < 1e-3), "{name}: {of_map:?}");
-        // The same grid to the same contact's half-axes: inside it is as good as outside, but for where cells happen to
+        // The same grid to the same contact's half-axes: inside it is as good as outside, except where cells happen to
         // lie under the border when the element hangs on the edge by a few of them.
         assert!(of_grid.iter().zip(outside).all(|(&error, outside)| error < 2.0 * outside), "{name}: {of_grid:?}");
     }

@@ -98,7 +98,7 @@ fn away_from_the_spall_a_roller_has_the_smooth_raceways_contact() {
     }
 }
 
-/// Approach (m), but for one constant, of a cylinder in plane strain whose centre is `edge` (m) from the edge of the
+/// Approach (m), except for one constant, of a cylinder in plane strain whose centre is `edge` (m) from the edge of the
 /// raceway, infinite without one, under a force per length over π E* (m): u(x) = −2 Σ p ln|x − ξ|, by uniform strips.
 fn plane_strain(per_length: f64, curvature: f64, edge: f64) -> f64 {
     let half = 1.6 * (4.0 * per_length / curvature).sqrt();
@@ -164,7 +164,7 @@ fn a_long_roller_on_an_edge_sinks_as_in_plane_strain_and_so_says_the_law() {
 #[test]
 fn half_a_spall_leaves_half_the_roller() {
     // A roller over the middle of a spall under its front half, out of reach: what is left carries as a roller of half
-    // the length, K ~ L^(8/9), but for the end that it has more.
+    // the length, K ~ L^(8/9), except for the end that it has more.
     let mut text = "arc_mm,axial_mm,depth_um\n".to_owned();
     for i in 0..=400 {
         for y in 0..=18 {

@@ -147,7 +147,7 @@ fn a_loose_element_snaps_from_one_raceway_to_the_other_where_its_weight_along_th
         }
         instants.push(after[4]);
     }
-    // Where the rings are does not depend on the communication step but for the tolerance.
+    // Where the rings are does not depend on the communication step except for the tolerance.
     assert!((instants[0] - instants[1]).abs() < 1e-8, "{instants:?}");
 }
 

@@ -39,7 +39,7 @@ fn an_element_is_over_an_inner_spall_as_long_as_its_length_over_its_speed() {
         }
     }
     let (first, last) = (inside[0], inside[inside.len() - 1]);
-    // Entry after 5 ms, but for the inner ring's swing: 10 µm are 17 µs.
+    // Entry after 5 ms, except for the inner ring's swing: 10 µm are 17 µs.
     assert!((first - 5e-3).abs() < 60e-6, "enters after {first} s");
     let passage = 10f64.to_radians() / PAST_INNER;
     assert!((last - first - passage).abs() < 40e-6, "{} s over it, {passage} s by kinematics", last - first);

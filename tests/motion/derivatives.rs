@@ -327,7 +327,7 @@ fn straight_rollers_that_rest_on_the_inner_ring_follow_it_at_every_cage_angle() 
     let mut simulation = simulation(scene);
     let paths: Vec<u32> = (1..=count).map(|j| simulation.reference(&format!("element[{j}].path")).unwrap()).collect();
     simulation.set("shaft.x", 4e-6).unwrap();
-    // Of 0.03 N of weight a damper of 1.25e-5 s bears more from one number to the next.
+    // Of 0.03 N of weight a damper of 1.25e-5 s carries more from one number to the next.
     simulation.set("shaft.vy", 1e-3).unwrap();
     let y = simulation.reference("shaft.y").unwrap();
     let (mut carried, step) = (0, 1e-10);

@@ -139,7 +139,7 @@ fn extent(lightest: f64, damped: bool) -> [f64; 2] {
 
 #[test]
 fn without_damping_neighbours_make_the_fastest_motion_faster_by_the_root_of_three_at_most() {
-    // Seen from standing ground, and with √m, the matrix is symmetric but for the turning of cage and contacts, which
+    // Seen from standing ground, and with √m, the matrix is symmetric up to the turning of cage and contacts, which
     // 1e-3 is for. Its largest ω² is no smaller than any on its diagonal. Elements and sensor do not act on each other,
     // nor do the two rings: it is no larger than one ω² of those and two of the rings', for two directions.
     for lightest in [0.1, 1e-4] {

@@ -233,7 +233,7 @@ fn ring_motion_from_the_host_gives_the_forces_of_the_same_motion_computed_inside
     hosted.0.initialize(0.0).unwrap();
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
     for _ in 0..4000 {
-        // 2 µs: extrapolation by v and a is wrong by 1/6 jerk H³, below 1e-12 m here but for impacts.
+        // 2 µs: extrapolation by v and a is wrong by 1/6 jerk H³, below 1e-12 m here except for impacts.
         inside.run(2e-6, 1);
         hosted.run(2e-6, 1);
         transfer(&mut inside, &mut hosted);

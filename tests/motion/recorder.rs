@@ -272,7 +272,7 @@ fn a_step_that_is_inspected_and_parted_records_what_a_plain_one_does() {
         let (width, expected) = samples(&plain);
         assert_eq!(samples(&inspected), (width, expected.clone()), "inspecting changes no bit");
         // A speed that has been nudged some hundred times is another run, but its samples are as many, and at the
-        // same instants but for the roundings of the parts.
+        // same instants except for the roundings of the parts.
         let (_, found) = samples(&parted);
         assert_eq!(found.len(), expected.len());
         for (a, b) in found.chunks_exact(width).zip(expected.chunks_exact(width)) {

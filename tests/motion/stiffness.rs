@@ -61,7 +61,7 @@ fn a_spall_inside_under_the_load_has_the_critical_load_of_one_outside() {
     scene.shaft_initial_angle = 0.3;
     let inside = bearing(&scene).with_shaft_angle(0.0);
     let (of_outer, of_inner) = (critical(&outside), critical(&inside));
-    // But for the Hertz constants' share: the element in the spall carries nothing yet.
+    // Except for the Hertz constants' share: the element in the spall carries nothing yet.
     agree(&[of_inner.load], &[of_outer.load], 1e-9);
     agree(&[inside.bottom().unwrap().path], &[1e-4], 1e-9);
     // Turned away from the load the spall counts for nothing.

@@ -183,7 +183,7 @@ fn a_page_of_a_long_run_has_every_sample_of_the_sensor() {
     let script = path.with_file_name("long.py");
     fs::write(&script, LONG).unwrap();
     let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
-    // 0.6 s at 51.2 kHz, but for the filter's half length at both ends.
+    // 0.6 s at 51.2 kHz, except for the filter's half length at both ends.
     let count: usize = said.trim().parse().unwrap();
     assert!((30_600..30_720).contains(&count), "{count} samples");
     let text = fs::read_to_string(&path).unwrap();

@@ -167,7 +167,7 @@ fn play_moves_the_bearing_and_pause_holds_it_and_sound_is_the_sensors_signal() {
     tab.press("motion-sound");
     let sounds = tab.said(SOUND);
     let [sound] = &sounds.as_array().unwrap()[..] else { panic!("{sounds}") };
-    // 0.3 s at 51.2 kHz, but for the recorder's filter's half length at both ends.
+    // 0.3 s at 51.2 kHz, except for the recorder's filter's half length at both ends.
     let length = sound["length"].as_u64().unwrap();
     assert!((15_300..15_361).contains(&length), "{sound}");
     assert_eq!((&sound["channels"], &sound["rate"]), (&json!(1), &json!(51_200)), "{sound}");

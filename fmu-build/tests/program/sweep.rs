@@ -291,7 +291,7 @@ fn rows_say_what_they_are_runs_of() {
             }
         }
     }
-    // The passage frequency of the outer raceway, Z/2 (1 − D/d) n, but for the cage's slip, of which there is none.
+    // The passage frequency of the outer raceway, Z/2 (1 − D/d) n, except for the cage's slip, of which there is none.
     for ((bpfo, count), speed) in
         number("bpfo_hz").iter().zip(number("bearing.element_count")).zip(number("shaft.speed_hz"))
     {

@@ -38,5 +38,5 @@ for name in recording.dtype.names:
 at_points = recording[::256]
 for column, name in enumerate(SEEN):
     expected = np.array(seen)[0:100:5, column]
-    # The same numbers by the same code, but for the cage's angle, whose turns are added up in another order.
+    # The same numbers by the same code, except for the cage's angle, whose turns are added up in another order.
     assert np.allclose(at_points[name], expected, rtol=1e-12, atol=1e-12), name

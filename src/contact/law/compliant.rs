@@ -109,7 +109,7 @@ impl CompliantContact {
             let excess = approach + self.compliance * self.law.elastic(approach) - total;
             let slope = 1.0 + self.compliance * self.law.elastic_stiffness(approach);
             let next = approach - excess / slope;
-            // A crown's table is convex but for roundings, so a step may lead up again, and the next one down.
+            // A crown's table is convex except for roundings, so a step may lead up again, and the next one down.
             let settled = (next - approach).abs() <= 16.0 * f64::EPSILON * next;
             approach = next;
             if settled {

@@ -102,7 +102,7 @@ impl ActiveSet {
     }
 
     /// Makes room for every window, so that later contacts allocate nothing unless they are the largest so far. A copy
-    /// has none but for what is filled.
+    /// has none except for what is filled.
     pub(super) fn make_room(&mut self) {
         let (rows, columns) = (self.pairs.rows(), self.pairs.reach());
         self.factored.reserve(4 * rows);
@@ -311,7 +311,7 @@ impl ActiveSet {
                             *out += image;
                         }
                     }
-                    for edge in felt(&self.edges).filter(|edge| edge.bears(from)) {
+                    for edge in felt(&self.edges).filter(|edge| edge.includes(from)) {
                         let cell = |row: usize, column: i32| CellIndex { row, column };
                         let image = edge.on(cell(target.row, to), length, cell(source.row, from));
                         for (out, image) in out[image.skip..].iter_mut().zip(image.values) {

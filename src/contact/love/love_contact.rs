@@ -322,7 +322,7 @@ impl Layer {
         Ok(layer)
     }
 
-    /// Makes room for every window; a copy has none but for what is filled.
+    /// Makes room for every window; a copy has none except for what is filled.
     fn make_room(&mut self, largest_approach: f64) {
         let (rows, columns) = (self.grid.rows(), self.grid.widest(self.grid.deepest() + 3.0 * largest_approach));
         self.interference.reserve(rows * columns);

@@ -1,4 +1,4 @@
-//! A grid of cells fixed to the surface that bears a defect, and the gap between it and the body above it.
+//! A grid of cells fixed to the surface that has a defect, and the gap between it and the body above it.
 //!
 //! Gap for zero approach with the element at arc s, circles and not paraboloids (Larizza et al. 2018, eq. 4, corrected:
 //! the groove's curvature is added and a depression *opens* the gap):
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with − for the concave outer raceway and + for the convex inner one, whose sag adds to the element's. Which of the
-//! two bodies bears the defect does not matter: in the half-space a defect of the element is the same problem as one of
+//! two bodies has the defect does not matter: in the half-space a defect of the element is the same problem as one of
 //! the raceway with the same depth over arc.
 //!
 //! Of a roller the two terms in y give way to its crown's depth, and rows end with its length.

@@ -60,7 +60,7 @@ pub(super) struct Loaded<'a> {
 /// What an edge adds to the influence of cells on each other.
 pub(super) trait Image {
     /// Whether a column is of the raceway that ends there.
-    fn bears(&self, column: i32) -> bool;
+    fn includes(&self, column: i32) -> bool;
 
     /// Influence of the cell `source`, which is of that raceway, on `length` cells of a row from `first` on.
     fn on(&self, first: CellIndex, length: usize, source: CellIndex) -> Influence<'_>;
@@ -208,7 +208,7 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
                         accumulate(sum, pair, middle + first + from + 1, p);
                     }
                 }
-                for edge in self.edges.clone().filter(|edge| edge.bears(from)) {
+                for edge in self.edges.clone().filter(|edge| edge.includes(from)) {
                     let source = CellIndex { row: run.row, column: from };
                     for (sum, first) in sums.iter_mut().zip(firsts) {
                         let image = edge.on(CellIndex { row: self.row, column: first }, SEGMENT, source);

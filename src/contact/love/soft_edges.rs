@@ -85,7 +85,7 @@ impl SoftEdge {
 
 impl Image for SoftEdge {
     #[inline(always)]
-    fn bears(&self, column: i32) -> bool {
+    fn includes(&self, column: i32) -> bool {
         (column < self.edge.border) == self.edge.below
     }
 

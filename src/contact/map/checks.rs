@@ -22,7 +22,7 @@ pub(super) struct Check {
 
 impl Check {
     /// Error of a map for approaches up to `largest` (m); `None` without contact. `grown` is the smooth contact's force
-    /// at an approach, but for a factor.
+    /// at an approach, except for a factor.
     pub(super) fn error(
         &self,
         map: &ContactMap,

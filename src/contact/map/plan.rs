@@ -347,7 +347,7 @@ impl MapPlan {
         }
     }
 
-    /// Checks of some cells: at four points of each large one and two of each small one, but for those without contact
+    /// Checks of some cells: at four points of each large one and two of each small one, except those without contact
     /// and beyond the largest approach.
     fn checks(&self, cells: &[(usize, Key)]) -> Result<Vec<Vec<Check>>, ContactError> {
         let of_cell = |contact: &mut LoveContact, (p, Key { level, i, j }): (usize, Key)| {
@@ -378,7 +378,7 @@ impl MapPlan {
 }
 
 impl MapPlan {
-    /// The smooth contact's force at an approach (m), but for a factor; of a roller as if it were straight.
+    /// The smooth contact's force at an approach (m), except for a factor; of a roller as if it were straight.
     fn grown(&self, approach: f64) -> f64 {
         approach * if self.line { ninth_root(approach) } else { approach.sqrt() }
     }

@@ -7,7 +7,7 @@
 //! ```
 //! the upper envelope of the rolling circle; for one sharp edge and a flat floor it is the closed form of
 //! Moazen-Ahmadi, Petersen and Howard (2015). Defects of the inner ring and of elements have the forms that
-//! [`Rolling`] gives; ψ is then the direction in which the two bodies touch, in the frame of the one that bears the
+//! [`Rolling`] gives; ψ is then the direction in which the two bodies touch, in the frame of the one that has the
 //! defect. Between two changes of the touched feature (a vertex of the profile, a
 //! straight piece of it, the smooth raceway) the path is smooth; there it is tabulated with cubic Hermite pieces whose
 //! end values and slopes are exact. The changes are the path's *knots*: at a pair of vertices the path has a cusp.
@@ -62,7 +62,7 @@ const ACCURACY: f64 = 2e-13;
 const MOST: usize = 1 << 16;
 
 impl RigidPath {
-    /// Rolls two bodies over each other of which one bears the profile `points`, (arc, depth) (m) with non-decreasing
+    /// Rolls two bodies over each other of which one has the profile `points`, (arc, depth) (m) with non-decreasing
     /// arc; its depth is 0 elsewhere.
     ///
     /// Depths must be below the element's radius; the surface layer sees to that.

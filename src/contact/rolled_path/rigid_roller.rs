@@ -1,4 +1,4 @@
-//! Two rigid circles, one of which bears a profile, that roll over each other: which feature of it touches the other
+//! Two rigid circles, one of which has a profile, that roll over each other: which feature of it touches the other
 //! circle, and by how much they then come together.
 //!
 //! Equations and limits are those of `rigid_path`, which makes a table of what is found here.

@@ -50,7 +50,7 @@ pub(super) struct OnElement<T> {
     pub(super) force: [T; 2],
     /// Equivalent approach (m).
     pub(super) approach: T,
-    /// The frame of the body that bears the defect.
+    /// The frame of the body that has the defect.
     pub(super) frame: Frame,
 }
 
@@ -68,7 +68,7 @@ pub(in crate::dynamics) struct ElementForces<T: Scalar = f64> {
     /// Direction, along e_r and e_t, and length of q (m).
     pub(in crate::dynamics) n: [T; 2],
     pub(in crate::dynamics) distance: T,
-    /// The frame of the body that bears the defect under each contact; `None` on smooth raceways.
+    /// The frame of the body that has the defect under each contact; `None` on smooth raceways.
     pub(in crate::dynamics) frames: [Option<Frame>; 2],
 }
 

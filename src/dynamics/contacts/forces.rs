@@ -37,7 +37,7 @@ pub struct Forces {
     pub(in crate::dynamics) frames: Frames,
     /// The oil films.
     pub(in crate::dynamics) films: Option<FilmsNow>,
-    /// Torques of contacts near defects on the bodies that bear them (N m): on the inner ring, on the outer ring, each
+    /// Torques of contacts near defects on the bodies that have them (N m): on the inner ring, on the outer ring, each
     /// about its centre, and on elements about their own axes.
     pub(in crate::dynamics) torques: [f64; 3],
     /// Shortcuts.
@@ -200,7 +200,7 @@ impl Forces {
         Vector::new(self.rings[2], self.rings[3])
     }
 
-    /// Torque of contacts near defects on the bodies that turn with a frame and bear them (N m).
+    /// Torque of contacts near defects on the bodies that turn with a frame and have them (N m).
     pub fn torque_on(&self, frame: Frame) -> f64 {
         self.torques[frame as usize]
     }

@@ -50,7 +50,7 @@ pub(in crate::dynamics) struct Meeting<T = f64> {
 pub(in crate::dynamics) struct Near<T> {
     /// Equivalent approach.
     pub(in crate::dynamics) approach: Approach<T>,
-    /// What the body turns with that bears the defect.
+    /// What the body turns with that has the defect.
     pub(in crate::dynamics) frame: Frame,
 }
 

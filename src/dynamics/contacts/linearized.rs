@@ -52,7 +52,7 @@ pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
     by: [Vector<T>; K],
     /// Equivalent approach (m).
     pub(in crate::dynamics) approach: T,
-    /// The frame of the body that bears the defect.
+    /// The frame of the body that has the defect.
     pub(in crate::dynamics) frame: Frame,
 }
 

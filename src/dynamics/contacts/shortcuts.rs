@@ -1,4 +1,4 @@
-//! What was worked out last and makes the next of its kind quicker. It changes no result, but for roundings of law
+//! What was worked out last and makes the next of its kind quicker. It changes no result, except for roundings of law
 //! `love`, which those forget who want bits that depend on nothing before.
 
 use crate::contact::near_defect::LoveSolvers;

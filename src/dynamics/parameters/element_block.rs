@@ -77,7 +77,7 @@ impl OwnElement {
 }
 
 /// All elements of a bearing at these angles (rad) ahead of the cage, of this `mass` (kg) and with these constants of
-/// the inner and the outer contact (N/m^n), but for those that are given by themselves.
+/// the inner and the outer contact (N/m^n), except for those that are given by themselves.
 pub(super) fn blocks(offsets: &[f64], mass: f64, [inner, outer]: [f64; 2], own: &[OwnElement]) -> Vec<ElementBlock> {
     let count = offsets.len();
     let mut blocks = vec![ElementBlock::default(); padded(count) / WIDEST];

@@ -211,7 +211,7 @@ impl Model {
         self.has_inner_defects() || (self.is_uneven() && !self.outer.defects.is_empty())
     }
 
-    /// Angle of element `j` (from 0) ahead of the cage (rad), but for what moves in it ([`lead`](Self::lead)).
+    /// Angle of element `j` (from 0) ahead of the cage (rad), except for what moves in it ([`lead`](Self::lead)).
     pub fn element_offset(&self, j: usize) -> f64 {
         self.offsets[j]
     }

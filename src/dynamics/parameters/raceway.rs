@@ -1,6 +1,6 @@
 //! A raceway as an element meets it, and the defects of a body: where they are, and how an element goes over them.
 //!
-//! A body that bears defects turns with its frame: the inner ring, the outer ring, or an element about its own axis.
+//! A body that has defects turns with its frame: the inner ring, the outer ring, or an element about its own axis.
 //! Around a defect the surface is cut at knots into cells, inside each of which the approach is smooth; a body's cells
 //! are counted through all of its defects. How the direction in which two bodies touch, frames, knots and cells belong
 //! together stands here and nowhere else. Angles are in radians, counter-clockwise; those from a defect's centre within

@@ -230,7 +230,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
     #[inline(always)]
     fn bracket<S: Wide>(&self, at: &ElementLanes<S>, guess: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        // The path at which the inner contact touches, but for what the offset's direction makes of it on the way.
+        // The path at which the inner contact touches, except for what the offset's direction makes of it on the way.
         let touching = (self.gap(at, guess).approach + guess) * number(1.0 + 1e-5);
         let zero = number(0.0);
         let low = touching.at_most(zero) - ((-at.body).or_zero() / at.constants[0]).sqrt().sqrt();

@@ -9,7 +9,7 @@
 //! not depend on u, so that R falls with u wherever a contact pushes: the elastic energy is convex in u. Where neither
 //! does, R is the weight and the centrifugal force, and the element goes on to the raceway to which these push it; one
 //! that nothing pushes rests against the outer raceway. The path therefore does not depend on where the search begins
-//! but for rounding. Where that push changes its sign the path jumps from one raceway to the other, and both forces are
+//! up to rounding. Where that push changes its sign the path jumps from one raceway to the other, and both forces are
 //! 0 on either side: the *snap* of a loose element is an event of the path, and no force jumps.
 //!
 //! *Damping* of the contacts is what is left of an element's motion where it follows its balance: to first order in the

@@ -38,7 +38,7 @@ pub(in crate::dynamics) struct BallContact<T: Scalar = f64> {
     pub(in crate::dynamics) rate: T,
     /// Magnitude of the force along the normal and around the ring (N).
     pub(in crate::dynamics) magnitude: T,
-    /// The frame of the body that bears the defect under it.
+    /// The frame of the body that has the defect under it.
     pub(in crate::dynamics) frame: Option<Frame>,
 }
 

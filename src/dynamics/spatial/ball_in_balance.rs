@@ -113,7 +113,7 @@ impl Model {
                 return place;
             }
         }
-        // Standing, but for the centrifugal force.
+        // Standing, except for the centrifugal force.
         self.balanced_ball(space, cells, guess, &standing, at.omega, shortcuts).at
     }
 

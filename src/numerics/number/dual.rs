@@ -246,7 +246,7 @@ mod tests {
     use crate::numerics::number::Scalar;
     use proptest::prelude::*;
 
-    /// x² and its derivatives but for their factors, which the formula takes times 0.
+    /// x² and its derivatives except for their factors, which the formula takes times 0.
     struct Square;
 
     impl Pair for Square {
@@ -315,7 +315,7 @@ mod tests {
 
         #[test]
         fn a_surface_carries_slopes_and_differences_of_second_derivatives(x in -1.0..1.0f64, y in -1.0..1.0f64) {
-            // f = x³ y²: third derivatives by differences are exact but for rounding.
+            // f = x³ y²: third derivatives by differences are exact except for rounding.
             let second = |[x, y]: [f64; 2]| Ok::<_, ()>([6.0 * x * y * y, 6.0 * x * x * y, 2.0 * x * x * x]);
             let of = |x: Twice, y: Twice| {
                 let (a, b) = (x.value(), y.value());

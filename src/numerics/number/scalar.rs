@@ -22,7 +22,7 @@ pub trait Scalar:
     /// How deep derivatives are nested: 0 of a plain number.
     const DEPTH: usize;
 
-    /// The number at which `residual` vanishes, known to be `root` but for its derivatives; `slope` is the residual's
+    /// The number at which `residual` vanishes, known to be `root` without its derivatives; `slope` is the residual's
     /// there. Each of Newton's steps gives one more order of derivatives, exactly.
     #[inline(always)]
     fn root_of(root: f64, slope: f64, mut residual: impl FnMut(Self) -> Self) -> Self {

@@ -3,7 +3,7 @@
 //! Four kinds of instants end a step exactly: the communication point; a *knot*, where a contact enters another cell of
 //! a defect at an instant known beforehand; a *crossing*, where it does so at one that is not; a *contact change*,
 //! where a contact begins or ceases to push, at loose tolerances only if the step is too long otherwise. Within a step
-//! every element stays in its cell and the right-hand side is smooth, but for the C¹ onset of a contact force.
+//! every element stays in its cell and the right-hand side is smooth, except for the C¹ onset of a contact force.
 //!
 //! Knots are whole numbers (the cell of each element), never recognised by comparing times, so a restored state
 //! continues with the same bits. Contact changes are located on the dense output.

@@ -33,18 +33,22 @@ pub(super) struct Across {
 }
 
 impl Across {
-    /// Where a spot is met on one raceway; `None` of a surface that is met the same everywhere across: a profile's, an
+    /// Where a surface is met on one raceway; `None` of one that is met the same everywhere across: a profile's, an
     /// element's, and each one in the plane.
     ///
     /// # Errors
     /// A topography that does not reach the track.
-    pub(super) fn of(scene: &Scene, spot: &PlacedSurface, side: RacewaySide) -> Result<Option<Self>, SimulationError> {
-        let (bearing, surface) = (&scene.bearing, &*spot.surface);
+    pub(super) fn of(
+        scene: &Scene,
+        placed: &PlacedSurface,
+        side: RacewaySide,
+    ) -> Result<Option<Self>, SimulationError> {
+        let (bearing, surface) = (&scene.bearing, &*placed.surface);
         let Surface::Topography(topography) = surface else { return Ok(None) };
-        if bearing.degrees_of_freedom == DegreesOfFreedom::Two || matches!(spot.on, DefectOn::Element { .. }) {
+        if bearing.degrees_of_freedom == DegreesOfFreedom::Two || matches!(placed.on, DefectOn::Element { .. }) {
             return Ok(None);
         }
-        let track = track_across(scene, spot.on);
+        let track = track_across(scene, placed.on);
         check_reach(topography, track, side)?;
         let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
         let [_, half] = element.contact_half_axes(specification.largest_approach);

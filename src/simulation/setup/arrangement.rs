@@ -52,25 +52,25 @@ pub(super) fn sides(on: DefectOn) -> &'static [RacewaySide] {
     }
 }
 
-/// The defects of a scene, whose surfaces are `surfaces` in the same order, as their bodies bear them: bodies in the
+/// The defects of a scene, whose surfaces are `surfaces` in the same order, as their bodies have them: bodies in the
 /// order in which the scene names them.
 ///
 /// # Errors
 /// Defects that overlap; a topography so close to another defect that both would have to be one surface.
-pub(in crate::simulation) fn arranged<'a>(
+pub(in crate::simulation) fn placed_surfaces<'a>(
     scene: &Scene,
     surfaces: &'a [Surface],
 ) -> Result<Vec<PlacedSurface<'a>>, SurfaceError> {
-    let mut spots = Vec::new();
+    let mut placed = Vec::new();
     for (index, defect) in scene.defects.iter().enumerate().take(surfaces.len()) {
         let same = |other: &DefectOn| is_same_body(*other, defect.on);
         if scene.defects[..index].iter().any(|before| same(&before.on)) {
             continue;
         }
         let all: Vec<usize> = (index..surfaces.len()).filter(|&k| same(&scene.defects[k].on)).collect();
-        spots.extend(on_body(scene, surfaces, &all)?);
+        placed.extend(on_body(scene, surfaces, &all)?);
     }
-    Ok(spots)
+    Ok(placed)
 }
 
 fn is_same_body(one: DefectOn, other: DefectOn) -> bool {
@@ -80,7 +80,7 @@ fn is_same_body(one: DefectOn, other: DefectOn) -> bool {
     }
 }
 
-/// The spots of one body, which bears the defects `all`.
+/// The surfaces of one body, which has the defects `all`.
 fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<Vec<PlacedSurface<'a>>, SurfaceError> {
     if let [one] = *all {
         let defect = &scene.defects[one];
@@ -125,7 +125,7 @@ fn on_body<'a>(scene: &Scene, surfaces: &'a [Surface], all: &[usize]) -> Result<
     groups.into_iter().map(|group| joined(scene, surfaces, &covered, &group, gaps[group[0]].1)).collect()
 }
 
-/// One spot of the defects `group` among those `covered`.
+/// The surface of the defects `group` among those `covered`.
 fn joined<'a>(
     scene: &Scene,
     surfaces: &'a [Surface],

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::across::Across;
-use super::arrangement::{PlacedSurface, arranged, sides};
+use super::arrangement::{PlacedSurface, placed_surfaces, sides};
 use super::specification::{map_specification, prepared};
 use super::tracks::{about, element_on_track, on_track, with_operating_angle};
 use crate::contact::element_on_raceway::ElementOnRaceway;
@@ -26,28 +26,28 @@ pub struct NeededMap<'s> {
 }
 
 impl<'s> NeededMap<'s> {
-    /// Those of a spot on one raceway, as an element of the [`prepared`] bearing meets it: one, or the slices of a
+    /// Those of a surface on one raceway, as an element of the [`prepared`] bearing meets it: one, or the slices of a
     /// topography that varies across the groove.
     ///
     /// # Errors
     /// A topography that does not reach the track.
     pub(super) fn all(
         scene: &Scene,
-        spot: &PlacedSurface<'s>,
+        placed: &PlacedSurface<'s>,
         side: RacewaySide,
     ) -> Result<Vec<Self>, SimulationError> {
-        Ok(match Across::of(scene, spot, side)? {
-            Some(across) => across.slices().map(|place| Self::of(scene, spot, side, Some(place))).collect(),
-            None => vec![Self::of(scene, spot, side, None)],
+        Ok(match Across::of(scene, placed, side)? {
+            Some(across) => across.slices().map(|place| Self::of(scene, placed, side, Some(place))).collect(),
+            None => vec![Self::of(scene, placed, side, None)],
         })
     }
 
-    /// That of a spot, about a place across the groove (m) where one is given.
-    fn of(scene: &Scene, spot: &PlacedSurface<'s>, side: RacewaySide, place: Option<f64>) -> Self {
+    /// That of a surface, about a place across the groove (m) where one is given.
+    fn of(scene: &Scene, placed: &PlacedSurface<'s>, side: RacewaySide, place: Option<f64>) -> Self {
         let bearing = prepared(scene);
         let (element, specification) = (element_on_track(&bearing, side), map_specification(scene, side));
-        let surface = match on_track(&spot.surface, &scene.bearing, spot.on) {
-            Cow::Borrowed(_) => spot.surface.clone(),
+        let surface = match on_track(&placed.surface, &scene.bearing, placed.on) {
+            Cow::Borrowed(_) => placed.surface.clone(),
             Cow::Owned(stretched) => Cow::Owned(stretched),
         };
         let surface = about(surface, place);
@@ -77,9 +77,9 @@ impl<'s> NeededMap<'s> {
 pub fn needed_maps<'s>(scene: &Scene, surfaces: &'s [Surface]) -> Result<Vec<NeededMap<'s>>, SimulationError> {
     let scene = &*with_operating_angle(scene);
     let mut maps: Vec<NeededMap> = Vec::new();
-    for spot in arranged(scene, surfaces)? {
-        for &side in sides(spot.on) {
-            for map in NeededMap::all(scene, &spot, side)? {
+    for placed in placed_surfaces(scene, surfaces)? {
+        for &side in sides(placed.on) {
+            for map in NeededMap::all(scene, &placed, side)? {
                 if !maps.iter().any(|known| known.fingerprint == map.fingerprint) {
                     maps.push(map);
                 }

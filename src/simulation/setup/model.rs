@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::across::Across;
-use super::arrangement::{PlacedSurface, arranged, sides};
+use super::arrangement::{PlacedSurface, placed_surfaces, sides};
 use super::maps::{NeededMap, map_fingerprint};
 use super::parameters::with_parameters;
 use super::specification::{map_specification, prepared};
@@ -64,8 +64,8 @@ impl Setup {
             };
         if !is_complete {
             // Overlaps and what does not reach a track are refused now, not when the model is built.
-            for spot in arranged(scene, surfaces)? {
-                sides(spot.on).iter().try_for_each(|&side| Across::of(scene, &spot, side).map(|_| ()))?;
+            for placed in placed_surfaces(scene, surfaces)? {
+                sides(placed.on).iter().try_for_each(|&side| Across::of(scene, &placed, side).map(|_| ()))?;
             }
         }
         Ok((build_model(scene, if is_complete { surfaces } else { &[] }, map.as_ref())?, is_complete))
@@ -110,18 +110,18 @@ impl Setup {
     }
 }
 
-/// The surface of a spot in contact with one raceway; a map that is not among those stored is computed, once.
+/// A placed surface in contact with one raceway; a map that is not among those stored is computed, once.
 fn near(
     scene: &Scene,
-    spot: &PlacedSurface,
+    placed: &PlacedSurface,
     side: RacewaySide,
     stored: Option<&Arc<ContactMaps>>,
     computed: &mut Vec<Arc<ContactMap>>,
 ) -> Result<NearDefect, SimulationError> {
-    let surface = &*on_track(&spot.surface, &scene.bearing, spot.on);
-    let bearer = defect_radius(&scene.bearing, spot.on);
-    let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(spot.on, DefectOn::Element { .. }));
-    let across = Across::of(scene, spot, side)?;
+    let surface = &*on_track(&placed.surface, &scene.bearing, placed.on);
+    let bearer = defect_radius(&scene.bearing, placed.on);
+    let (rolling, shortened) = rolling_on_track(&scene.bearing, side, matches!(placed.on, DefectOn::Element { .. }));
+    let across = Across::of(scene, placed, side)?;
     let near = match (scene.contact.law, surface) {
         (ContactLaw::Hertz, Surface::Profile(profile)) => {
             NearDefect::Hertz(RigidPath::new(profile.points(), rolling)?.turned_slower(shortened))
@@ -130,7 +130,7 @@ fn near(
             return Err(SimulationError::LawNotAvailable { law: scene.contact.law });
         }
         (ContactLaw::Map, _) => {
-            let wanted = NeededMap::all(scene, spot, side)?;
+            let wanted = NeededMap::all(scene, placed, side)?;
             let maps = wanted.iter().map(|wanted| made(wanted, stored, computed)).collect::<Result<Vec<_>, _>>()?;
             let near = NearMap::new(Arc::clone(&maps[0]), bearer);
             NearDefect::Map(match across {
@@ -201,18 +201,18 @@ pub fn build_model(
     }
     let mut computed = Vec::new();
     let (mut rings, mut defective) = ([Vec::new(), Vec::new()], Vec::<DefectiveElement>::new());
-    for spot in &arranged(scene, surfaces)? {
-        let mut near = |side| near(scene, spot, side, map, &mut computed);
-        match spot.on {
-            DefectOn::Inner => rings[0].push(Centred { surface: near(RacewaySide::Inner)?, centre: spot.centre }),
-            DefectOn::Outer => rings[1].push(Centred { surface: near(RacewaySide::Outer)?, centre: spot.centre }),
+    for placed in &placed_surfaces(scene, surfaces)? {
+        let mut near = |side| near(scene, placed, side, map, &mut computed);
+        match placed.on {
+            DefectOn::Inner => rings[0].push(Centred { surface: near(RacewaySide::Inner)?, centre: placed.centre }),
+            DefectOn::Outer => rings[1].push(Centred { surface: near(RacewaySide::Outer)?, centre: placed.centre }),
             DefectOn::Element { element, .. } => {
                 // At the start the defect is at its angle from the direction of its element, and the spin is counted
                 // from there; the inner raceway is met with the opposite side.
                 // In an irregular cage it is the model that knows where that is.
                 let start = WholeAngle::in_first_turn(scene.cage.initial_angle);
                 let facing = Model::smooth(scene).element_angle(element, start);
-                let centre = facing + spot.centre;
+                let centre = facing + placed.centre;
                 let both = [
                     Centred { surface: near(RacewaySide::Inner)?, centre: centre - PI },
                     Centred { surface: near(RacewaySide::Outer)?, centre },
@@ -222,7 +222,7 @@ pub fn build_model(
                         other.defects.iter_mut().zip(both).for_each(|(defects, one)| defects.add(one));
                     }
                     None => {
-                        let first = scene.first_defect_of(element).map_or(spot.centre, |k| scene.defects[k].angle);
+                        let first = scene.first_defect_of(element).map_or(placed.centre, |k| scene.defects[k].angle);
                         let defects = both.map(|one| Defects::new(Frame::Spin, [one]));
                         defective.push(DefectiveElement { element, defects, mark: facing + first });
                     }

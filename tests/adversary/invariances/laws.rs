@@ -2,7 +2,7 @@
 //!
 //! One element stands somewhere over a defect, pressed outwards by the inner ring, which the host holds.
 
-use super::course;
+use super::trajectory;
 use crate::case::{Case, Defect, Grooves, Host, Length, Motion, On, Ring, Shape, Step};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
@@ -90,7 +90,7 @@ fn on_the_smooth_raceway_all_laws_are_one() {
             (case.law, case.grid) = (law, (law != "hertz").then(|| grid(&case, approach, [12, 8])));
             case.defects[0].angle_deg += 90.0;
             case.steps[0].length = 1e-4;
-            course(&case, |_| {})
+            trajectory(&case, |_| {})
         };
         let [hertz, love, map] = ["hertz", "love", "map"].map(far);
         match (&hertz.failed, &love.failed, &map.failed) {

@@ -1,15 +1,15 @@
 //! What must be equal in every bit: a second run, another start time, another order of inputs, a parameter set by the
 //! host instead of the scene, a state that was saved and put back.
 
-use super::{Course, course, scene};
+use super::{Trajectory, scene, trajectory};
 use crate::case::{Case, Length, On, Shape};
 use crate::draw::{Draw, for_seeds};
 use crate::subject::Subject;
 
-fn equal(case: &Case, other: Course) -> Result<(), String> {
-    let base = course(case, |_| {});
-    let bits = |course: &Course| -> Vec<Vec<u64>> {
-        course.samples.iter().map(|sample| sample.iter().map(|value| value.to_bits()).collect()).collect()
+fn equal(case: &Case, other: Trajectory) -> Result<(), String> {
+    let base = trajectory(case, |_| {});
+    let bits = |trajectory: &Trajectory| -> Vec<Vec<u64>> {
+        trajectory.samples.iter().map(|sample| sample.iter().map(|value| value.to_bits()).collect()).collect()
     };
     if base.failed != other.failed {
         return Err(format!("{:?} and {:?}", base.failed, other.failed));
@@ -31,7 +31,7 @@ fn equal(case: &Case, other: Course) -> Result<(), String> {
 fn a_second_run_has_the_same_bits() {
     for_seeds(6, |_, draw| {
         let case = scene(draw, true);
-        equal(&case, course(&case, |_| {}))
+        equal(&case, trajectory(&case, |_| {}))
     });
 }
 
@@ -40,7 +40,7 @@ fn the_start_time_changes_no_bit() {
     for_seeds(6, |_, draw| {
         let case = scene(draw, true);
         let start = draw.log(1e-3, 1e9) * draw.sign();
-        equal(&case, course(&case, |subject| subject.begin = start))
+        equal(&case, trajectory(&case, |subject| subject.begin = start))
     });
 }
 
@@ -48,7 +48,7 @@ fn the_start_time_changes_no_bit() {
 fn the_order_of_inputs_changes_no_bit() {
     for_seeds(6, |seed, draw| {
         let case = scene(draw, true);
-        equal(&case, course(&case, |subject| subject.shuffle = Some(Draw::new(!seed))))
+        equal(&case, trajectory(&case, |subject| subject.shuffle = Some(Draw::new(!seed))))
     });
 }
 
@@ -64,8 +64,8 @@ fn the_order_of_defects_changes_no_bit() {
             return Ok(());
         }
         // An error says the numbers of defects.
-        let mut found = course(&turned, |_| {});
-        if let (Some(_), Some(failed)) = (&found.failed, course(&case, |_| {}).failed) {
+        let mut found = trajectory(&turned, |_| {});
+        if let (Some(_), Some(failed)) = (&found.failed, trajectory(&case, |_| {}).failed) {
             found.failed = Some(failed);
         }
         equal(&case, found)
@@ -76,7 +76,7 @@ fn the_order_of_defects_changes_no_bit() {
 fn saving_and_restoring_changes_no_bit() {
     for_seeds(6, |_, draw| {
         let case = scene(draw, true);
-        equal(&case, course(&case, |subject| subject.rollback = true))
+        equal(&case, trajectory(&case, |subject| subject.rollback = true))
     });
 }
 
@@ -117,15 +117,15 @@ fn a_parameter_set_by_the_host_is_that_of_the_scene() {
             crate::case::Damping::Proportional(tau) => *tau = 0.5 * *tau + 1e-6,
         }
         let parameters = given.parameters();
-        let found = course_of(&other, &case, |subject| subject.set_parameters(&parameters));
+        let found = trajectory_of(&other, &case, |subject| subject.set_parameters(&parameters));
         equal(&case, found)
     });
 }
 
 /// The scene of one case under the inputs of another.
-fn course_of(scene: &Case, inputs: &Case, prepare: impl Fn(&mut Subject)) -> Course {
+fn trajectory_of(scene: &Case, inputs: &Case, prepare: impl Fn(&mut Subject)) -> Trajectory {
     let case = Case { steps: inputs.steps.clone(), ..scene.clone() };
-    course(&case, |subject| {
+    trajectory(&case, |subject| {
         prepare(subject);
     })
 }

@@ -40,7 +40,7 @@ pub(super) fn is_small() -> bool {
     env::var_os(SMALL).is_some()
 }
 
-/// The small file system of this process, emptied and then filled up but for some pages.
+/// The small file system of this process, emptied and then filled up except for some pages.
 pub(super) fn nearly_full(chance: &mut Chance) -> FullDisk {
     let folder = PathBuf::from(env::var_os(SMALL).expect("started by another test"));
     for entry in fs::read_dir(&folder).unwrap().flatten() {

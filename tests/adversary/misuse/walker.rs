@@ -324,7 +324,7 @@ impl<'w> Walker<'w> {
         self.tally.recordings += 1;
     }
 
-    /// After `fmi2Reset`: as a new instance, but for saved states and logging.
+    /// After `fmi2Reset`: as a new instance, except for saved states and logging.
     pub(super) fn start_over(&mut self) {
         self.model = Model::new();
         (self.together, self.recording, self.file) = (true, false, Some(false));

@@ -1,7 +1,7 @@
 //! How near two rigid circles come to each other over a profile on one of them, by trying every corner and every
 //! straight piece.
 //!
-//! The profile is B(φ) from the centre of the body that bears it, linear in φ between its corners; the other circle has
+//! The profile is B(φ) from the centre of the body that has it, linear in φ between its corners; the other circle has
 //! the radius C. With the touched point T at angle d = φ − ψ from the line of centres, the other circle's centre is at
 //! ```text
 //! outer ring             ρ  = B cos d − √(C² − B² sin² d)      least, B = R_o + h, C = r
@@ -15,7 +15,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Which bodies roll over each other; the first bears the profile.
+/// Which bodies roll over each other; the first has the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pair {
     OuterRing,

@@ -26,7 +26,7 @@ pub struct Contact {
     pub pushes: bool,
     /// Whether oil is pressed out of it.
     pub squeezes: bool,
-    /// Bound of ∂(force)/∂(approach) (N/m), but for the elastic part.
+    /// Bound of ∂(force)/∂(approach) (N/m), except for the elastic part.
     pub steep: f64,
     /// Whose defect it is over: the ring's (0) or the element's.
     pub over: Option<usize>,

@@ -276,7 +276,7 @@ impl<'a> Linear<'a> {
     }
 }
 
-/// What the eigenvalues other than 0 are, real ones in pairs of similar motion but for `unpaired`. Instability has
+/// What the eigenvalues other than 0 are, real ones in pairs of similar motion except for `unpaired`. Instability has
 /// none.
 fn sort_out(pairs: Vec<Eigenpair>, unpaired: usize, largest: f64) -> Vec<(Kind, Vec<Eigenpair>)> {
     let (unstable, stable): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|pair| pair.value.re > ROUNDING * largest);

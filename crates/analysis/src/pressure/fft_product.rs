@@ -2,7 +2,7 @@
 //!
 //! K is a convolution: padded to twice the grid it becomes circular (Hockney's method) and exact. The kernel is even,
 //! so its spectrum is real. The approximate inverse, a preconditioner, is that of the kernel wrapped around the
-//! unpadded grid, k(i) + k(N − i) in both directions: right but for the influence of the borders. The wrapped kernel
+//! unpadded grid, k(i) + k(N − i) in both directions: right except for the influence of the borders. The wrapped kernel
 //! has to reach over a whole period: with k(N) left out the spectrum of cells much longer than wide turns negative at
 //! high frequencies, and conjugate gradients take ten times as many steps.
 

@@ -51,7 +51,7 @@ pub(crate) fn with_changes<T: Clone, E>(
     for (i, &angle) in angles.iter().enumerate() {
         let next = at(angle)?;
         let mut from = if i > 0 { angles[i - 1] } else { angle };
-        // Several changes between two angles are found one after the other, but for those that undo each other.
+        // Several changes between two angles are found one after the other, except for those that undo each other.
         while let Some(last) = found.last()
             && !same(last, &next)
             && angle - from > narrow

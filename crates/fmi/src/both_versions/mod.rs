@@ -1,4 +1,4 @@
-//! The exported functions that both versions have, alike but for their names: the end of an instance's life, its
+//! The exported functions that both versions have, alike except for their names: the end of an instance's life, its
 //! messages, and its saved states. Each version exports them by [`functions`] beside those of its own.
 
 pub(crate) mod exchange;

@@ -1,5 +1,5 @@
 //! In which modes each function of FMI 2.0 may be called: a transcription of the tables of sections 3.2.3 and 4.2.4 of
-//! FMI 2.0.x, but for the functions of model exchange alone. `fmi2Instantiate`, `fmi2GetTypesPlatform` and
+//! FMI 2.0.x, except for the functions of model exchange alone. `fmi2Instantiate`, `fmi2GetTypesPlatform` and
 //! `fmi2GetVersion` take no instance, so they have no row.
 
 use crate::instance::Mode::{ContinuousTime, Error, Event, Initialization, Instantiated, StepComplete, Terminated};

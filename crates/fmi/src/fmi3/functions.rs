@@ -1,5 +1,5 @@
 //! In which modes each function of FMI 3.0 may be called: a transcription of sections 2.3, 3.2 and 4.2 of FMI 3.0.2 for
-//! model exchange, but for the functions of that alone, and for co-simulation without events. Functions that make an
+//! model exchange, except for the functions of that alone, and for co-simulation without events. Functions that make an
 //! instance, and `fmi3GetVersion`, have no row; those that are not provided fail in every mode.
 
 use crate::instance::Mode::{

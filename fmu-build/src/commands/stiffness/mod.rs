@@ -260,7 +260,7 @@ fn write_variations(
     Ok(())
 }
 
-/// What [`summary`] says, in SI units but for degrees.
+/// What [`summary`] says, in SI units except for degrees.
 fn summary_json(
     bearing: &StaticBearing,
     balances: &[Balance],

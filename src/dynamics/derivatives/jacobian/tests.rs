@@ -13,7 +13,7 @@ use crate::scene::{
     Waviness, WavyBody,
 };
 
-/// Who bears a defect, and for an element the raceway that it faces.
+/// Who has a defect, and for an element the raceway that it faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Bearer {
     Ring(RacewaySide),

@@ -120,7 +120,7 @@ impl SensorModes {
         self.direct[k]
     }
 
-    /// Change per second (m/s³) of what sensor `k` measures, but for that of its body's acceleration.
+    /// Change per second (m/s³) of what sensor `k` measures, except for that of its body's acceleration.
     pub fn rate(&self, k: usize, acceleration: f64, state: &[f64]) -> f64 {
         let by_mode = |(mode, z): (&Mode, [f64; 2])| {
             let second = mode.returning(z) - acceleration;

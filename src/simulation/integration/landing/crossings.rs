@@ -187,7 +187,7 @@ impl Watched<'_> {
 }
 
 impl Begun<'_> {
-    /// Angle that the contact has gone since (rad), against what bears its defect.
+    /// Angle that the contact has gone since (rad), against the body with its defect.
     fn travel(&self, problem: Problem, to: &Instant, pieces: &mut LeadPieces) -> f64 {
         // Of the whole angles only the change, so that no turns are to be counted and no digits are lost.
         let (cage, frame) =

@@ -3,7 +3,7 @@
 //! count are those of the elements about the outer ring's centre, which follow from time alone; passages that depend on
 //! where the inner ring is are those of [`super::crossings`].
 //!
-//! The angle of the elements against what bears the defect is a quadratic of time within a communication step, so it
+//! The angle of the elements against the body with the defect is a quadratic of time within a communication step, so it
 //! turns back at most once, and before and after that it goes one way only. Which of these two *legs* it is on is, like
 //! a cell, no question of times: the way back begins with the first passage that only it can make. On a leg an element
 //! meets the knot ahead of its cell and no other. The knot that it has just passed, from which rounding leaves it at an
@@ -12,7 +12,7 @@
 
 use crate::dynamics::parameters::{Ahead, Cells, Defects, Excitation, Frame, Model, Quadratic};
 
-/// Part of a communication step on which elements turn one way against what bears a defect.
+/// Part of a communication step on which elements turn one way against the body with a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::simulation) enum Leg {
     /// The way on which the step begins.

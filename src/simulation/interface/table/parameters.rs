@@ -137,7 +137,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Where rings that bear a defect or turn begin, and how much spin is lost.
+    /// Where rings that have a defect or turn begin, and how much spin is lost.
     fn turning_parameters(&mut self) {
         let scene = self.scene;
         let mut angle = |name: &str, what: &str, ring, start| {

@@ -15,7 +15,7 @@ const LONGEST: f64 = 2e-6;
 /// A bearing in balance.
 #[derive(Debug, Clone)]
 pub struct Balance {
-    /// The state that it has, at rest but for what the host moves.
+    /// The state that it has, at rest except for what the host moves.
     pub state: Vec<f64>,
     pub held: Held,
     /// Force (N) or moment (N m) that is left on what is free.

@@ -19,8 +19,8 @@ use crate::shared::{Interface, Version, digits};
 use variables::variables;
 
 /// Axes, angles and signs.
-const SIGNS: &str = include_str!("../../../docs/figures/signs.svg");
-const PAGE: &str = include_str!("../../assets/documentation.html");
+const SIGNS: &str = include_str!("../../../../docs/figures/signs.svg");
+const PAGE: &str = include_str!("../../../assets/documentation.html");
 
 /// Writes the page.
 ///
