@@ -168,6 +168,14 @@ fn formulas_have_only_what_the_script_that_sets_them_knows() {
 }
 
 #[test]
+fn the_scene_of_the_readme_is_one() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let text = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let scene = brinell_scene_file::from_toml(text).unwrap();
+    assert_eq!((text.lines().count(), scene.defects.len(), scene.shaft.load), (12, 1, [0.0, -500.0]));
+}
+
+#[test]
 fn the_citation_is_of_this_version() {
     let version = format!("version: {}", env!("CARGO_PKG_VERSION"));
     let citation = fs::read_to_string(root().join("CITATION.cff")).unwrap();
