@@ -21,7 +21,7 @@ use std::sync::Mutex;
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use crate::interrupt::{Held, Interrupted};
 use crate::run::noise_spectrum::NoiseSpectrum;
@@ -294,9 +294,14 @@ fn prepare<'p>(
 
 fn bar(runs: u64, done: u64) -> ProgressBar {
     let bar = talk::bar(runs, "sweep [{bar:30}] {pos}/{len} runs{msg}, {per_sec}, {eta} left").with_position(done);
-    // A new start forgets times, not steps: those made earlier would count as made at once with the first of now.
+    // A new start forgets times, not steps: those made earlier would count as made at once with the first of now. Nor
+    // is their rate shown.
+    bar.set_draw_target(ProgressDrawTarget::hidden());
     bar.tick();
     bar.reset_eta();
+    if talk::is_shown() {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+    }
     bar
 }
 

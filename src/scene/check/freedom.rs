@@ -103,8 +103,19 @@ impl Scene {
             faults.passes(Err(FreedomError::TooMuchPolarInertia { polar_kg_m2, limit_kg_m2 }.into()));
         }
         faults.passes(TILT_DAMPING.check(tilt.damping));
-        faults.passes(TILT_STIFFNESS.check(tilt.stiffness));
+        let held = !faults.passes(TILT_STIFFNESS.check(tilt.stiffness)) || tilt.stiffness > 0.0;
+        if !held && !self.is_pressed() {
+            faults.passes(Err(FreedomError::FreeInTilt.into()));
+        }
         faults.into_result()
+    }
+
+    /// Whether anything presses balls against both rings: in contact they hold a tilt, also without a contact angle.
+    fn is_pressed(&self) -> bool {
+        let loads = [&self.shaft, &self.housing].map(|ring| [ring.load[0], ring.load[1], ring.axial.load]);
+        let gravity = [self.gravity[0], self.gravity[1], self.axial_gravity];
+        let pushes = loads.into_iter().flatten().chain(gravity).chain([self.shaft.axial.preload]);
+        self.bearing.radial_clearance < 0.0 || pushes.into_iter().any(|push| push != 0.0)
     }
 }
 

@@ -77,6 +77,13 @@ pub enum FreedomError {
          \"internal\""
     )]
     FreeAlongTheAxis { ring: &'static str },
+    /// A shaft that tilts, in a bearing whose balls nothing presses.
+    #[error(
+        "the shaft is free to tilt and nothing presses the bearing, so that no tilt is its own: it needs \
+         shaft.tilt_stiffness_n_m_rad above 0, a load (shaft.load_n, gravity_m_s2), shaft.preload_n, or \
+         bearing.radial_clearance_um below 0"
+    )]
+    FreeInTilt,
     /// Two rings that both slide.
     #[error(
         "axial stiffness to ground (shaft.axial_stiffness_n_m, housing.axial_stiffness_n_m) is 0 for both rings: where \

@@ -132,7 +132,8 @@ impl Builder<'_> {
         let other = if ring == RingName::Shaft { RingName::Housing } else { RingName::Shaft };
         let Along { axis, .. } = PRESCRIBED[0].size;
         match self.motion(other) {
-            Motion::Fixed => Size { largest: self.scene.bearing.groove_distance(), ..axis },
+            // To a nanometre, as nobody wants to read the rounding of a sum.
+            Motion::Fixed => Size { largest: (self.scene.bearing.groove_distance() * 1e9).round() / 1e9, ..axis },
             _ => axis,
         }
     }
