@@ -3,9 +3,9 @@
 //! Differences are counted in what one step of the simulation may be wrong by. To them come the oracle's own error,
 //! from a run of a hundred times the tolerance, and what it makes of a push of one unit at the start.
 
-use crate::case::Motion;
+use crate::case::{Motion, On};
 use crate::draw::{Draw, for_seeds};
-use crate::oracle::spatial::{Balance, SpatialBearing, SpatialCase, SpatialRun, Stop, random};
+use crate::oracle::spatial::{Balance, Gyroscopic, SpatialBearing, SpatialCase, SpatialRun, Stop, random};
 use brinell::simulation::{Simulation, SimulationError};
 use std::collections::BTreeMap;
 
@@ -24,9 +24,23 @@ enum Kind {
     Velocity,
     Across,
     Tilt,
+    TiltRate,
     Angle,
+    /// Angle to a shoulder from the end of an ellipse, which is shorter than its groove's radius.
+    Margin,
     Force,
     Moment,
+}
+
+impl Kind {
+    /// How far before it the force stands that decides on it.
+    fn behind_its_force(self) -> Option<usize> {
+        match self {
+            Self::Angle => Some(1),
+            Self::Margin => Some(2),
+            _ => None,
+        }
+    }
 }
 
 /// Names of what is compared.
@@ -42,13 +56,15 @@ fn names(case: &SpatialCase) -> Vec<(String, Kind)> {
     }
     if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         names.extend(["x", "y"].map(|axis| (format!("shaft.tilt.{axis}"), Kind::Tilt)));
+        names.extend(["x", "y"].map(|axis| (format!("shaft.tilt.v{axis}"), Kind::TiltRate)));
     }
     for j in 1..=case.count {
         names.push((format!("element[{j}].path"), Kind::Length));
         names.push((format!("element[{j}].axial"), Kind::Across));
-        for side in ["inner", "outer"] {
+        for (side, shoulder) in ["inner", "outer"].into_iter().zip(case.shoulders_mm) {
             names.push((format!("element[{j}].force.{side}"), Kind::Force));
             names.push((format!("element[{j}].contact_angle.{side}"), Kind::Angle));
+            names.extend(shoulder.map(|_| (format!("element[{j}].shoulder.{side}"), Kind::Margin)));
         }
     }
     names
@@ -66,11 +82,13 @@ fn values(case: &SpatialCase, run: &SpatialRun<'_>) -> Vec<f64> {
     }
     if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
         values.extend(&run.y[3..5]);
+        values.extend(&run.y[8..10]);
     }
-    for (j, ball) in run.acting.balls.iter().enumerate() {
-        values.extend(run.place(j));
-        for touch in ball.contacts {
-            values.extend([touch.force, if touch.approach > 0.0 { touch.angle } else { 0.0 }]);
+    for ball in &run.acting.balls {
+        values.extend(ball.place);
+        for (side, touch) in ball.contacts.iter().enumerate() {
+            values.extend([touch.force, touch.angle]);
+            values.extend(run.bearing.margin(side, touch));
         }
     }
     values
@@ -85,7 +103,9 @@ struct Subject {
 impl Subject {
     fn new(case: &SpatialCase) -> Result<Self, String> {
         let scene = brinell_scene_file::from_toml(&case.toml()).map_err(|error| error.to_string())?;
-        let simulation = Simulation::new(scene, None).map_err(|error| error.to_string())?;
+        let profiles = case.profiles();
+        let simulation =
+            Simulation::new(scene, profiles.iter().map(String::as_str)).map_err(|error| error.to_string())?;
         let references = names(case).iter().map(|(name, _)| simulation.reference(name)).collect::<Result<_, _>>();
         Ok(Self { references: references.map_err(|error| error.to_string())?, simulation })
     }
@@ -103,8 +123,9 @@ impl Subject {
             all.push(("housing.speed".to_owned(), host.speeds[1][0], host.speeds[1][1]));
         }
         for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
-            let free = if case.freedom == 5 && which == 0 { 5 } else { 3 };
-            match case.rings[which].motion {
+            let motion = case.rings[which].motion;
+            let free = if case.freedom == 5 && (which == 0 || motion == Motion::Host) { 5 } else { 3 };
+            match motion {
                 Motion::Internal => {}
                 Motion::Fixed => continue,
                 Motion::Host => {
@@ -157,12 +178,15 @@ fn units(bearing: &SpatialBearing, case: &SpatialCase, approach: f64) -> BTreeMa
     let force = (length * stiff + velocity * damped) * (1.0 + case.count as f64 / 3.0);
     // Across the groove a ball is held a tenth as stiffly as along the normal.
     let short = case.conformities.into_iter().fold(f64::INFINITY, f64::min) * case.diameter_mm * 1e-3 - bearing.radius;
+    let angle = 10.0 * length / short;
     BTreeMap::from([
         (Kind::Length, length),
         (Kind::Velocity, velocity),
         (Kind::Across, 10.0 * length),
         (Kind::Tilt, length / bearing.rho_0),
-        (Kind::Angle, 10.0 * length / short),
+        (Kind::TiltRate, velocity / bearing.rho_0),
+        (Kind::Angle, angle),
+        (Kind::Margin, angle),
         (Kind::Force, force),
         (Kind::Moment, force * bearing.rho_0),
     ])
@@ -179,10 +203,7 @@ fn largest_difference(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut
 fn judge(case: &SpatialCase) -> Result<f64, String> {
     let bearing = SpatialBearing::new(case);
     let host = case.steps[0].host.as_ref();
-    let sense = case.rings[0].load[2].signum();
-    let hosted = host.filter(|_| case.rings[0].motion == Motion::Host);
-    let z = hosted.map_or(sense * 20e-6, |host| host.rings[0][2][0]);
-    let balance = bearing.balance(host, [0.0, 0.0, z, 0.0, 0.0]);
+    let balance = bearing.rest(host);
     let forces = |balance: &Balance| {
         balance.held.balls.iter().flat_map(|ball| ball.contacts).fold(0.0f64, |m, touch| m.max(touch.force))
     };
@@ -217,6 +238,10 @@ fn judge(case: &SpatialCase) -> Result<f64, String> {
         }
         largest = largest.max(approach(&fine));
         let expected = values(case, &fine);
+        // Where a ball without inertia has no balance.
+        if !expected.iter().all(|value| value.is_finite()) {
+            return Ok(judged);
+        }
         largest_difference(&names, &values(case, &coarse), &expected, &mut own);
         largest_difference(&names, &values(case, &pushed), &values(case, &coarse), &mut grown);
         let unit = units(&bearing, case, largest);
@@ -239,10 +264,24 @@ fn compare(
     expected: &[f64],
     allowed: impl Fn(Kind) -> f64,
 ) -> Result<(), String> {
-    for (((name, kind), a), b) in names.iter().zip(sample).zip(expected) {
+    for (i, ((name, kind), (a, b))) in names.iter().zip(sample.iter().zip(expected)).enumerate() {
+        let mut limit = allowed(*kind);
+        if let Some(behind) = kind.behind_its_force() {
+            let [force, of_sample] = [expected[i - behind], sample[i - behind]];
+            if *kind == Kind::Angle && of_sample == 0.0 && *a != 0.0 {
+                return Err(format!("{name} is {a:e} where the contact is open"));
+            }
+            // One that is just touched may as well be open.
+            if force <= allowed(Kind::Force) {
+                continue;
+            }
+            if *kind == Kind::Margin {
+                limit += allowed(Kind::Force) / (3.0 * force);
+            }
+        }
         let off = (a - b).abs();
-        if !(off <= allowed(*kind)) {
-            return Err(format!("{name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {:e}", allowed(*kind)));
+        if !(off <= limit) {
+            return Err(format!("{name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {limit:e}"));
         }
     }
     Ok(())
@@ -262,14 +301,27 @@ fn pushed(bearing: &SpatialBearing, mut y: Vec<f64>, length: f64) -> Vec<f64> {
 
 #[test]
 fn every_random_scene_in_space_is_a_possible_one() {
-    let hosted = std::sync::atomic::AtomicUsize::new(0);
+    let drawn = std::sync::Mutex::new(BTreeMap::new());
     for_seeds(300, |_, draw: &mut Draw| {
         let case = random(draw);
-        let count = usize::from(case.rings[0].motion == Motion::Host);
-        hosted.fetch_add(count, std::sync::atomic::Ordering::Relaxed);
+        let on_ball = case.defects.iter().any(|defect| matches!(defect.on, On::Element { .. }));
+        for (what, is) in [
+            ("host moves the shaft", case.rings[0].motion == Motion::Host),
+            ("host moves the housing", case.rings[1].motion == Motion::Host),
+            ("balls without inertia", !case.inertia),
+            ("gyroscopic couple", case.gyroscopic != Gyroscopic::Nobody),
+            ("defect on a ball", on_ball),
+            ("several defects", case.defects.len() > 1),
+            ("operating angle left open", case.operating_deg.is_none()),
+            ("shoulder", case.shoulders_mm != [None; 2]),
+        ] {
+            *drawn.lock().unwrap().entry(what).or_insert(0) += usize::from(is);
+        }
         brinell_scene_file::from_toml(&case.toml()).map(|_| ()).map_err(|error| format!("{error}\n{}", case.toml()))
     });
-    assert!(hosted.into_inner() > 50, "the host moves hardly any shaft");
+    let drawn = drawn.into_inner().unwrap();
+    println!("{drawn:?}");
+    assert!(drawn.values().all(|&count| count > 25), "hardly drawn: {drawn:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use super::bearing::{Acting, BALLS, Outside, SpatialBearing};
 use super::case::Host;
 use super::statics::is_hosted;
-use crate::turning::quadratic;
+use crate::turning::{HOUSING, SHAFT, quadratic};
 
 const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const WEIGHTS: [[f64; 6]; 6] = [
@@ -30,7 +30,7 @@ pub enum Stop {
 
 /// One run.
 pub struct SpatialRun<'a> {
-    bearing: &'a SpatialBearing,
+    pub bearing: &'a SpatialBearing,
     pub y: Vec<f64>,
     outside: Outside,
     pub acting: Acting,
@@ -50,8 +50,8 @@ impl<'a> SpatialRun<'a> {
         tolerance: f64,
         budget: usize,
     ) -> Self {
-        let [shaft, housing] = rings_deg.map(f64::to_radians);
-        let outside = bearing.outside([bearing.cage_start, shaft, housing], host.unwrap_or(&bearing.of_scene()));
+        let mut outside = bearing.first(host);
+        (outside.turns[SHAFT][0], outside.turns[HOUSING][0]) = (rings_deg[0].to_radians(), rings_deg[1].to_radians());
         let mut run = Self { bearing, y, outside, acting: Acting::default(), tolerance, budget, h: 1e-7 };
         run.feel(0.0);
         run
@@ -61,6 +61,16 @@ impl<'a> SpatialRun<'a> {
     fn feel(&mut self, t: f64) {
         let mut rates = vec![0.0; self.y.len()];
         self.bearing.rates(&self.outside, t, &self.y, &mut rates, &mut self.acting);
+        self.keep_places();
+    }
+
+    /// Balls without inertia are looked for from where they were.
+    fn keep_places(&mut self) {
+        if !self.bearing.inertia {
+            for (j, ball) in self.acting.balls.iter().enumerate() {
+                [self.y[BALLS + 4 * j], self.y[BALLS + 4 * j + 2]] = ball.place;
+            }
+        }
     }
 
     /// Angle of the cage now (rad).
@@ -83,7 +93,7 @@ impl<'a> SpatialRun<'a> {
     /// Takes a communication step.
     pub fn step(&mut self, length: f64, host: Option<&Host>) -> Result<(), Stop> {
         self.say(host);
-        let mut cuts = self.bearing.passages(&self.outside, length);
+        let mut cuts = self.bearing.surfaces.passages(&self.outside.turns, length);
         cuts.retain(|&cut| cut > 1e-12 && cut < length - 1e-12);
         cuts.push(length);
         let mut from = 0.0;
@@ -124,8 +134,12 @@ impl<'a> SpatialRun<'a> {
             let worst = worst.fold(0.0f64, |m, off| if off.is_finite() { m.max(off) } else { f64::INFINITY });
             if worst <= 1.0 {
                 self.y.copy_from_slice(&at);
+                self.keep_places();
                 t = if last { to } else { t + h };
                 self.check()?;
+            } else if h < 1e-18 {
+                // Up to where a ball without inertia has no balance.
+                return Err(Stop::Budget);
             }
             self.h = h * (0.9 * worst.max(1e-9).powf(-0.2)).clamp(0.2, if worst <= 1.0 { 5.0 } else { 0.9 });
         }
@@ -147,7 +161,7 @@ impl<'a> SpatialRun<'a> {
 
     /// u and v of a ball.
     pub fn place(&self, j: usize) -> [f64; 2] {
-        [self.y[BALLS + 4 * j], self.y[BALLS + 4 * j + 2]]
+        self.acting.balls[j].place
     }
 
     /// Position and tilt of a ring that moves by itself.
