@@ -16,9 +16,11 @@ use crate::turning::quadratic;
 
 /// Longest step of a ball (m).
 const LONGEST: f64 = 2e-6;
-/// Of difference quotients: a distance (m), and a time (s) in which a ball goes less than a micrometre.
+/// Of difference quotients: a distance (m), a longer one where rounding is what counts, and a time (s) in which a ball
+/// goes less than a micrometre.
 const NEAR: f64 = 1e-10;
-const SOON: f64 = 1e-8;
+const WIDE: f64 = 1e-9;
+const SOON: f64 = 3e-8;
 
 /// An instant of a communication step: what the host says, and how far into it.
 type Instant<'a> = (&'a Outside, f64);
@@ -70,7 +72,7 @@ impl SpatialBearing {
                 break;
             }
             // Loose between both raceways: outwards until one pushes.
-            let step = solve(self.slopes(now, poses, j, place, dampers), &force.map(|f| -f))
+            let step = solve(self.slopes(now, poses, (j, place), dampers, NEAR), &force.map(|f| -f))
                 .unwrap_or(vec![force[0].signum() * LONGEST, 0.0]);
             let share = (LONGEST / step[0].hypot(step[1])).min(1.0);
             let mut tried = None;
@@ -86,14 +88,14 @@ impl SpatialBearing {
         size(force).is_finite().then_some((ball, size(force)))
     }
 
-    /// Rows of R_b (N/m).
+    /// Rows of R_b (N/m), over a distance (m) either way.
     fn slopes(
         &self,
         now: Instant<'_>,
         poses: &[Pose; 2],
-        j: usize,
-        place: [f64; 2],
+        (j, place): (usize, [f64; 2]),
         dampers: Dampers,
+        over: f64,
     ) -> Vec<Vec<f64>> {
         let columns = [0, 1].map(|k| {
             let moved = |by: f64| {
@@ -101,8 +103,8 @@ impl SpatialBearing {
                 there[k] += by;
                 self.standing(now, poses, j, there, dampers).1
             };
-            let (up, down) = (moved(NEAR), moved(-NEAR));
-            [0, 1].map(|i| (up[i] - down[i]) / (2.0 * NEAR))
+            let (up, down) = (moved(over), moved(-over));
+            [0, 1].map(|i| (up[i] - down[i]) / (2.0 * over))
         });
         (0..2).map(|i| columns.iter().map(|column| column[i]).collect()).collect()
     }
@@ -114,7 +116,7 @@ impl SpatialBearing {
             return lost();
         }
         let ((outside, t), place) = (now, elastic.place);
-        let rows = self.slopes(now, poses, j, place, Dampers::NONE);
+        let rows = self.slopes(now, poses, (j, place), Dampers::NONE, WIDE);
         // Where nothing holds it nothing follows.
         let answer = |force: [f64; 2]| solve(rows.clone(), &force.map(|f| -f)).unwrap_or(vec![0.0; 2]);
         let [later, earlier] = [SOON, -SOON].map(|by| {
@@ -128,14 +130,14 @@ impl SpatialBearing {
         let by_dampers = subtract(damped.force(), elastic.force());
         let lag = answer([dot(by_dampers, e_r), by_dampers[2]]);
         let far = lag[0].hypot(lag[1]).max(1e-30);
-        let [ahead, behind] = [NEAR, -NEAR].map(|by| {
+        let [ahead, behind] = [WIDE, -WIDE].map(|by| {
             let there = [0, 1].map(|k| place[k] + by * lag[k] / far);
             self.standing(now, poses, j, there, Dampers::NONE).0
         });
         let change = [0, 1].map(|side| {
             let [elastic, damped, ahead, behind] = [&elastic, &damped, &ahead, &behind].map(|of| &of.contacts[side]);
             let of = |part: fn(&Touch) -> Vector| {
-                let follows = times(far / (2.0 * NEAR), subtract(part(ahead), part(behind)));
+                let follows = times(far / (2.0 * WIDE), subtract(part(ahead), part(behind)));
                 add(subtract(part(damped), part(elastic)), follows)
             };
             [of(|touch| touch.on_ball), of(|touch| touch.moment)]

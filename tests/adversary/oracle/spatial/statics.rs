@@ -35,9 +35,22 @@ pub struct Held {
 }
 
 impl SpatialBearing {
-    /// The balance at the start, looked for from where the shaft has gone a little way along its axial load.
+    /// The balance at the start, looked for from where a shaft that goes along its axial load has closed the bearing and
+    /// is pressed into it.
     pub fn rest(&self, host: Option<&Host>) -> Option<Balance> {
-        self.balance(host, [0.0, 0.0, 20e-6f64.copysign(self.rings[0].load[2]), 0.0, 0.0])
+        let (load, [inner, outer]) = (self.rings[0].load[2], &self.grooves);
+        let (apart, radial) = (inner.touching + outer.touching, inner.circle - outer.circle);
+        let closed = (apart * apart - radial * radial).max(0.0).sqrt();
+        let pressed = 4.0 * (load.abs() / (self.count as f64 * inner.stiffness)).cbrt().powi(2);
+        let housing = self.pose(1, &self.first(host), 0.0, &vec![0.0; self.state_count()]).position[2];
+        let z = housing + outer.shift - inner.shift + (closed + pressed).copysign(load);
+        self.balance(host, [0.0, 0.0, z, 0.0, 0.0])
+    }
+
+    /// Where balls are looked for: between the circles of both grooves.
+    fn middle(&self, poses: &[Pose; 2]) -> Vec<[f64; 2]> {
+        let z = [0, 1].map(|side| poses[side].position[2] + self.grooves[side].shift);
+        vec![[0.0, 0.5 * (z[0] + z[1])]; self.count]
     }
 
     /// The balance of the free rings under what the host says at the start, looked for from `guess`, the position and
@@ -51,7 +64,7 @@ impl SpatialBearing {
         for a in self.free(0) {
             state[a] = guess[a];
         }
-        let mut places = vec![[0.0, 0.5 * guess[2]]; self.count];
+        let mut places = self.middle(&[0, 1].map(|which| self.pose(which, &outside, 0.0, &state)));
         let (mut force, mut held) = self.on_free(&outside, &mut state, &free, &mut places)?;
         for _ in 0..200 {
             let size = norm(&force);
@@ -118,8 +131,8 @@ impl SpatialBearing {
     pub fn held(&self, shaft: [f64; 5]) -> Option<Held> {
         let outside = self.first(None);
         let pose = Pose { position: [shaft[0], shaft[1], shaft[2]], tilt: [shaft[3], shaft[4]], ..Pose::default() };
-        let mut places = vec![[0.0, 0.5 * shaft[2]]; self.count];
-        self.between(&outside, &[pose, Pose::default()], &mut places)
+        let poses = [pose, Pose::default()];
+        self.between(&outside, &poses, &mut self.middle(&poses))
     }
 
     /// Stiffness of the bearing: how its force and moment on the shaft fall with position and tilt of the shaft, about
