@@ -16,11 +16,12 @@ use crate::turning::quadratic;
 
 /// Longest step of a ball (m).
 const LONGEST: f64 = 2e-6;
-/// Of difference quotients: a distance (m), a longer one where rounding is what counts, and a time (s) in which a ball
-/// goes less than a micrometre.
+/// Of difference quotients: a distance (m); the shortest and the longest where rounding counts, in between a part of the
+/// smallest approach; and a time (s) in which a ball goes less than a micrometre.
 const NEAR: f64 = 1e-10;
-const WIDE: f64 = 1e-9;
-const SOON: f64 = 3e-8;
+const WIDE: [f64; 2] = [1e-11, 1e-9];
+const OF_APPROACH: f64 = 0.02;
+const SOON: f64 = 1e-8;
 
 /// An instant of a communication step: what the host says, and how far into it.
 type Instant<'a> = (&'a Outside, f64);
@@ -116,28 +117,31 @@ impl SpatialBearing {
             return lost();
         }
         let ((outside, t), place) = (now, elastic.place);
-        let rows = self.slopes(now, poses, (j, place), Dampers::NONE, WIDE);
+        let approaches = elastic.contacts.iter().map(|touch| touch.approach).filter(|&approach| approach > 0.0);
+        let smallest = OF_APPROACH * approaches.fold(f64::INFINITY, f64::min);
+        let (over, soon) = (self.quotients * smallest.clamp(WIDE[0], WIDE[1]), self.quotients * SOON);
+        let rows = self.slopes(now, poses, (j, place), Dampers::NONE, over);
         // Where nothing holds it nothing follows.
         let answer = |force: [f64; 2]| solve(rows.clone(), &force.map(|f| -f)).unwrap_or(vec![0.0; 2]);
-        let [later, earlier] = [SOON, -SOON].map(|by| {
+        let [later, earlier] = [soon, -soon].map(|by| {
             let moved = [poses[0].later(by), poses[1].later(by)];
             self.standing((outside, t + by), &moved, j, place, Dampers::NONE).1
         });
-        let rates = answer([0, 1].map(|i| (later[i] - earlier[i]) / (2.0 * SOON)));
+        let rates = answer([0, 1].map(|i| (later[i] - earlier[i]) / (2.0 * soon)));
         let ([e_r, _], housing) = (self.directions(outside, t, j), poses[1].velocity);
         let moving = [place[0], rates[0] + dot(e_r, housing), place[1], rates[1] + housing[2]];
         let damped = self.with_couple(now, self.ball(now, poses, j, moving, self.dampers));
         let by_dampers = subtract(damped.force(), elastic.force());
         let lag = answer([dot(by_dampers, e_r), by_dampers[2]]);
         let far = lag[0].hypot(lag[1]).max(1e-30);
-        let [ahead, behind] = [WIDE, -WIDE].map(|by| {
+        let [ahead, behind] = [over, -over].map(|by| {
             let there = [0, 1].map(|k| place[k] + by * lag[k] / far);
             self.standing(now, poses, j, there, Dampers::NONE).0
         });
         let change = [0, 1].map(|side| {
             let [elastic, damped, ahead, behind] = [&elastic, &damped, &ahead, &behind].map(|of| &of.contacts[side]);
             let of = |part: fn(&Touch) -> Vector| {
-                let follows = times(far / (2.0 * WIDE), subtract(part(ahead), part(behind)));
+                let follows = times(far / (2.0 * over), subtract(part(ahead), part(behind)));
                 add(subtract(part(damped), part(elastic)), follows)
             };
             [of(|touch| touch.on_ball), of(|touch| touch.moment)]

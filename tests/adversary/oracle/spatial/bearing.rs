@@ -33,6 +33,8 @@ pub struct SpatialBearing {
     pub(super) dampers: Dampers,
     /// Whether balls have inertia.
     pub(super) inertia: bool,
+    /// As a factor, how far the difference quotients of balls without it go: what half of it changes is their error.
+    pub quotients: f64,
     /// Speeds of cage, shaft, housing and balls' spin per speed of shaft and housing.
     pub(super) ratios: [[f64; 2]; 4],
     pub cage_start: f64,

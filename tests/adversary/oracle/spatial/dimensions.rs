@@ -63,6 +63,7 @@ impl SpatialBearing {
             surfaces: Surfaces::new(&case.defects, [0, 1].map(track), r, (case.count, cage_start)),
             dampers: Dampers { normal: case.damping, across: case.across },
             inertia: case.inertia,
+            quotients: 1.0,
             ratios: ratios(gamma, gamma * cosine, case.slip),
             cage_start,
             speeds: [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| TAU * hz),

@@ -12,10 +12,7 @@ mod contact;
 mod dimensions;
 #[cfg(test)]
 mod figures;
-#[cfg(test)]
-mod motion_figures;
 mod random;
-mod random_defects;
 mod run;
 mod statics;
 mod surfaces;

@@ -1,5 +1,7 @@
 //! Balances that are known: figures of an independent reference and of published tables.
 
+mod motion;
+
 use super::*;
 use crate::case::{Damping, Motion};
 

@@ -1,8 +1,8 @@
 //! Motions that are known: two other right-hand sides and integrations of them agree to 1e-14 m.
 
-use super::bearing::BALLS;
-use super::*;
 use crate::case::{Defect, Length, On, Shape};
+use crate::spatial::bearing::BALLS;
+use crate::spatial::*;
 use std::f64::consts::TAU;
 
 /// A tenth of what is printed last.

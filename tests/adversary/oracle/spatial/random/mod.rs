@@ -1,8 +1,9 @@
 //! Random scenes in space.
 
+mod defects;
+
 use super::bearing::SpatialBearing;
 use super::case::{AxialSetting, Gyroscopic, Host, SpatialCase, SpatialRing, Step};
-use super::random_defects;
 use crate::case::{Damping, Motion};
 use crate::draw::Draw;
 use crate::turning::quadratic;
@@ -25,7 +26,7 @@ pub fn random(draw: &mut Draw) -> SpatialCase {
         }
     }
     let approach = 2.0 * (2.0 * force / (case.count as f64 * 2e10)).cbrt().powi(2);
-    random_defects::add(draw, &mut case, approach);
+    defects::add(draw, &mut case, approach);
     let length = draw.log(5e-5, 4e-4);
     let mut moves = [[[0.0; 3]; 5]; 2];
     if draw.chance(0.15) {

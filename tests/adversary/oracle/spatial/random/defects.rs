@@ -1,12 +1,12 @@
 //! Random defects in space: the shapes of the plane, on both raceways and on balls, most of them where a ball is.
 
-use super::bearing::SpatialBearing;
-use super::case::SpatialCase;
-use crate::case::{Defect, On};
+use crate::case::{Defect, On, Shape};
 use crate::draw::Draw;
 use crate::envelope::within_half_a_turn;
 use crate::random_case::shape::{Around, random};
 use crate::random_case::space::Space;
+use crate::spatial::bearing::SpatialBearing;
+use crate::spatial::case::SpatialCase;
 use std::f64::consts::TAU;
 
 /// Share of a ring's and of a ball's circumference that a defect may have. All of a body's lie within a third of a turn
@@ -78,7 +78,19 @@ fn one(draw: &mut Draw, case: &SpatialCase, approach: f64) -> Defect {
     defect
 }
 
+/// Whether some of it stands out of the body.
+fn is_raised(defect: &Defect) -> bool {
+    matches!(&defect.shape, Shape::Trace(points) if points.iter().any(|&(_, depth)| depth < 0.0))
+}
+
+/// Whether a defect has its own place, beside others of its body. Where a ring's and a ball's meet under one contact the
+/// deeper counts, which says nothing of raised ones: these are not drawn on both.
 fn fits(case: &SpatialCase, defect: &Defect) -> bool {
+    let of_ball = |defect: &Defect| matches!(defect.on, On::Element { .. });
+    let raised = is_raised(defect) || case.defects.iter().any(is_raised);
+    if raised && case.defects.iter().any(|other| of_ball(other) != of_ball(defect)) {
+        return false;
+    }
     let bearer = bearer(case, defect.on);
     let mut same = case.defects.iter().filter(|other| other.on.is_body_of(defect.on)).peekable();
     let apart = |other: &Defect| within_half_a_turn((other.angle_deg - defect.angle_deg).to_radians()).abs();
