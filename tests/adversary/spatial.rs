@@ -242,7 +242,7 @@ fn every_random_scene_in_space_is_a_possible_one() {
 #[test]
 fn random_scenes_in_space_agree_with_the_oracle() {
     let judged = std::sync::Mutex::new(BTreeMap::<_, Vec<f64>>::new());
-    for_seeds(12, |_, draw| {
+    for_seeds(24, |_, draw| {
         let case = random(draw);
         let (share, why) = judge(&case).map_err(|why| format!("{why}\n{}{:?}", case.toml(), case.steps))?;
         judged.lock().unwrap().entry((case.inertia, why)).or_default().push(share);
