@@ -50,8 +50,8 @@ fn largest_difference(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut
     }
 }
 
-/// An oracle, another whose difference quotients go half as far, from a balance of its own, and what becomes of that one
-/// when it is pushed.
+/// An oracle, another whose difference quotients go half as far, from a balance of its own, and what becomes of that
+/// one when it is pushed.
 struct Oracles<'a> {
     case: &'a SpatialCase,
     bearing: &'a SpatialBearing,

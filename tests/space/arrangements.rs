@@ -29,8 +29,9 @@ fn an_ellipse_at_a_free_contact_angle_is_that_of_its_hertz_constant() {
     let bearing = Bearing { shoulder_inner: height, shoulder_outer: height, ..angular(25.0) };
     let scene = free_shaft(bearing, DegreesOfFreedom::Three).gravity([0.0; 2]).axial_load(500.0);
     let margins = ["element[1].shoulder.inner", "element[1].shoulder.outer"];
-    // θ_s − α − a₁ Q^(1/3)/r_g with the printed α and Q of that thrust, a₁ from Hertz's integrals by arithmetic-geometric
-    // means at the curvatures ±cos α°/(½ D_pw ∓ r cos α°): 1.4726458e-4 and 1.1688585e-4 m/N^(1/3).
+    // θ_s − α − a₁ Q^(1/3)/r_g with the printed α and Q of that thrust, a₁ from Hertz's integrals by
+    // arithmetic-geometric means at the curvatures ±cos α°/(½ D_pw ∓ r cos α°): 1.4726458e-4 and 1.1688585e-4
+    // m/N^(1/3).
     printed(&values(&mut started(scene.build().unwrap()), margins), PI / 180.0, &["14.677247", "16.226334"]);
 }
 

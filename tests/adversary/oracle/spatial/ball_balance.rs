@@ -16,8 +16,8 @@ use crate::turning::quadratic;
 
 /// Longest step of a ball (m).
 const LONGEST: f64 = 2e-6;
-/// Of difference quotients: a distance (m); the shortest and the longest where rounding counts, in between a part of the
-/// smallest approach; and a time (s) in which a ball goes less than a micrometre.
+/// Of difference quotients: a distance (m); the shortest and the longest where rounding counts, in between a part of
+/// the smallest approach; and a time (s) in which a ball goes less than a micrometre.
 const NEAR: f64 = 1e-10;
 const WIDE: [f64; 2] = [1e-11, 1e-9];
 const OF_APPROACH: f64 = 0.02;

@@ -1,9 +1,11 @@
 //! Dormand and Prince's Runge–Kutta pair of fifth order with the error of every step below a tolerance, cut where an
 //! outer contact comes to a corner of its path.
 
-use super::bearing::{Acting, BALLS, Outside, SpatialBearing};
+use super::bearing::{Acting, BALLS, OF_RING, Outside, SpatialBearing};
 use super::case::Host;
 use super::statics::is_hosted;
+use super::vector::dot;
+use crate::case::Motion;
 use crate::turning::{HOUSING, SHAFT, quadratic};
 
 const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -26,6 +28,70 @@ pub enum Stop {
     Budget,
     /// A ball or a ring has left the bearing.
     Left,
+}
+
+impl SpatialBearing {
+    /// What acts, and the rates of the state.
+    pub(super) fn rates(&self, outside: &Outside, t: f64, y: &[f64], out: &mut [f64], acting: &mut Acting) {
+        let poses = [0, 1].map(|which| self.pose(which, outside, t, y));
+        let [_, omega, _] = quadratic(outside.turns[0], t);
+        acting.balls.clear();
+        acting.rings = [[0.0; 5]; 2];
+        for j in 0..self.count {
+            let at = BALLS + 4 * j;
+            let of: [f64; 4] = std::array::from_fn(|k| y[at + k]);
+            let ball = if self.inertia {
+                let ball = self.ball((outside, t), &poses, j, of, self.dampers);
+                let ([e_r, e_t], force) = (self.directions(outside, t, j), ball.force());
+                let (housing, rho) = (poses[1].velocity, self.rho_0 + of[0]);
+                out[at] = of[1] - dot(e_r, housing);
+                out[at + 1] =
+                    dot(force, e_r) / self.mass + dot(self.gravity, e_r) + omega * (dot(housing, e_t) + rho * omega);
+                out[at + 2] = of[3] - housing[2];
+                out[at + 3] = force[2] / self.mass + self.gravity[2];
+                ball
+            } else {
+                // What it is in balance with has no part in the error of a step.
+                out[at..at + 4].fill(0.0);
+                self.following((outside, t), &poses, j, [of[0], of[2]])
+            };
+            for (which, touch) in ball.contacts.iter().enumerate() {
+                let of_ring = touch.on_ring();
+                (0..5).for_each(|a| acting.rings[which][a] += of_ring[a]);
+            }
+            acting.balls.push(ball);
+        }
+        for which in 0..2 {
+            self.ring_rates(which, outside, t, y, out, acting);
+        }
+    }
+
+    fn ring_rates(&self, which: usize, outside: &Outside, t: f64, y: &[f64], out: &mut [f64], acting: &mut Acting) {
+        let (ring, at) = (&self.rings[which], OF_RING * which);
+        out[at..at + OF_RING].fill(0.0);
+        let spin = quadratic(outside.turns[1 + which], t)[1];
+        for a in self.free(which) {
+            let kind = [0, 0, 1, 2, 2][a];
+            let mut force = acting.rings[which][a] + quadratic(outside.rings[which][a], t)[0];
+            force -= ring.damping[kind] * y[at + 5 + a] + ring.stiffness[kind] * y[at + a];
+            if a == 2 {
+                force += ring.preload * self.sense * if which == 0 { 1.0 } else { -1.0 };
+            }
+            let gyroscopic = ring.inertia[1] * spin;
+            force += match a {
+                3 => -gyroscopic * y[at + 5 + 4],
+                4 => gyroscopic * y[at + 5 + 3],
+                _ => 0.0,
+            };
+            let inertia = if a < 3 { ring.mass } else { ring.inertia[0] };
+            out[at + a] = y[at + 5 + a];
+            out[at + 5 + a] = force / inertia;
+            acting.accelerations[which][a] = force / inertia;
+        }
+        if ring.motion == Motion::Host {
+            acting.accelerations[which] = outside.rings[which].map(|c| c[2]);
+        }
+    }
 }
 
 /// One run.

@@ -35,8 +35,8 @@ pub struct Held {
 }
 
 impl SpatialBearing {
-    /// The balance at the start, looked for from where a shaft that goes along its axial load has closed the bearing and
-    /// is pressed into it.
+    /// The balance at the start, looked for from where a shaft that goes along its axial load has closed the bearing
+    /// and is pressed into it.
     pub fn rest(&self, host: Option<&Host>) -> Option<Balance> {
         let (load, [inner, outer]) = (self.rings[0].load[2], &self.grooves);
         let (apart, radial) = (inner.touching + outer.touching, inner.circle - outer.circle);

@@ -2,8 +2,8 @@
 //! the great circle through both of its contacts.
 //!
 //! Along its track a raceway has the radius R_n = R_c/cos α_n (Meusnier), and an arc R_c ψ on it is the angle ψ cos α_n
-//! about that radius' centre. A ring's defect has the angles about the axis that it has at the groove's bottom, whatever
-//! the track; a ball's own has its angles about the ball's centre.
+//! about that radius' centre. A ring's defect has the angles about the axis that it has at the groove's bottom,
+//! whatever the track; a ball's own has its angles about the ball's centre.
 
 use crate::case::{Defect, On};
 use crate::envelope::{Envelope, Feature, Pair, within_half_a_turn};
@@ -48,8 +48,9 @@ pub(super) struct Over {
 }
 
 impl Met {
-    /// Of a body whose bottom has this radius (m), each arc on the track so many times as long, that rolls on or under a
-    /// raceway of the radius `rolling` (m); in the frame of its own spin, counted from the start. None without a defect.
+    /// Of a body whose bottom has this radius (m), each arc on the track so many times as long, that rolls on or
+    /// under a raceway of the radius `rolling` (m); in the frame of its own spin, counted from the start. None
+    /// without a defect.
     fn of(body: &[&Defect], radius: f64, (pair, rolling): (Pair, f64), bottom: (f64, f64)) -> Option<Self> {
         let centre = body.first()?.angle_deg * PI / 180.0;
         let envelope = Envelope::new(&profiles(body, bottom, radius), pair, radius, rolling);

@@ -83,8 +83,8 @@ fn is_raised(defect: &Defect) -> bool {
     matches!(&defect.shape, Shape::Trace(points) if points.iter().any(|&(_, depth)| depth < 0.0))
 }
 
-/// Whether a defect has its own place, beside others of its body. Where a ring's and a ball's meet under one contact the
-/// deeper counts, which says nothing of raised ones: these are not drawn on both.
+/// Whether a defect has its own place, beside others of its body. Where a ring's and a ball's meet under one contact
+/// the deeper counts, which says nothing of raised ones: these are not drawn on both.
 fn fits(case: &SpatialCase, defect: &Defect) -> bool {
     let of_ball = |defect: &Defect| matches!(defect.on, On::Element { .. });
     let raised = is_raised(defect) || case.defects.iter().any(is_raised);
