@@ -140,6 +140,7 @@ fn judge(case: &SpatialCase) -> Result<(f64, &'static str), String> {
         match oracles.step(i) {
             Ok(()) => {}
             Err(Stop::Budget) => return Ok((judged, "too many steps for the oracle")),
+            Err(Stop::Lost) => return Ok((judged, "a ball without inertia has no balance")),
             Err(Stop::Left) if subject.step(case, i).is_ok() => {
                 return Err(format!("step {i}: the oracle's balls leave"));
             }

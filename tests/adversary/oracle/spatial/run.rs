@@ -28,6 +28,8 @@ pub enum Stop {
     Budget,
     /// A ball or a ring has left the bearing.
     Left,
+    /// A ball without inertia is nowhere in balance, or not found.
+    Lost,
 }
 
 impl SpatialBearing {
@@ -184,6 +186,10 @@ impl<'a> SpatialRun<'a> {
                 return Err(Stop::Budget);
             }
             self.budget -= 1;
+            // Where nothing else moves, a ball without inertia is not to be looked for too far from where it was.
+            if !self.bearing.inertia {
+                self.h = self.h.min(1e-5);
+            }
             let last = t + 1.0001 * self.h >= to;
             let h = if last { to - t } else { self.h };
             for stage in 0..7 {
@@ -204,8 +210,7 @@ impl<'a> SpatialRun<'a> {
                 t = if last { to } else { t + h };
                 self.check()?;
             } else if h < 1e-18 {
-                // Up to where a ball without inertia has no balance.
-                return Err(Stop::Budget);
+                return Err(Stop::Lost);
             }
             self.h = h * (0.9 * worst.max(1e-9).powf(-0.2)).clamp(0.2, if worst <= 1.0 { 5.0 } else { 0.9 });
         }
@@ -222,7 +227,10 @@ impl<'a> SpatialRun<'a> {
     fn check(&self) -> Result<(), Stop> {
         let r = self.bearing.radius;
         let far = (0..self.bearing.count).any(|j| self.y[BALLS + 4 * j].abs().max(self.y[BALLS + 4 * j + 2].abs()) > r);
-        if far || !self.y.iter().all(|y| y.is_finite()) { Err(Stop::Left) } else { Ok(()) }
+        if far {
+            return Err(Stop::Left);
+        }
+        if self.y.iter().all(|y| y.is_finite()) { Ok(()) } else { Err(Stop::Lost) }
     }
 
     /// u and v of a ball.
