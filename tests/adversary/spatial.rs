@@ -3,166 +3,41 @@
 //! Differences are counted in what one step of the simulation may be wrong by. To them come the oracle's own error,
 //! from a run of a hundred times the tolerance, and what it makes of a push of one unit at the start.
 
-use crate::case::Motion;
-use crate::draw::{Draw, for_seeds};
-use crate::oracle::spatial::{Balance, SpatialBearing, SpatialCase, SpatialRun, Stop, random};
-use brinell::simulation::{Simulation, SimulationError};
-use std::collections::BTreeMap;
+mod subject;
 
-/// Units that a difference may have: many steps follow each other, each wrong by up to one.
-const LIMIT: f64 = 100.0;
-/// Largest allowed difference over the largest force up to which runs are compared.
-const HORIZON: f64 = 0.02;
+use crate::case::{Damping, Motion, On};
+use crate::draw::{Draw, for_seeds};
+use crate::oracle::spatial::{Ball, Gyroscopic, SpatialBearing, SpatialCase, SpatialRun, Stop, random};
+use crate::units::{HORIZON, KEPT_PATH, LIMIT};
+use std::collections::BTreeMap;
+use subject::{Kind, Subject, names, values};
+
 /// Of the oracle's steps (m), and most of them.
 const EXACT: f64 = 1e-15;
 const BUDGET: usize = 400_000;
 
-/// What a signal is measured in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    Length,
-    Velocity,
-    Across,
-    Tilt,
-    Angle,
-    Force,
-    Moment,
-}
-
-/// Names of what is compared.
-fn names(case: &SpatialCase) -> Vec<(String, Kind)> {
-    let mut names = Vec::new();
-    for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
-        if case.rings[which].motion == Motion::Internal {
-            names.extend(["x", "y", "z"].map(|axis| (format!("{name}.{axis}"), Kind::Length)));
-            names.extend(["x", "y", "z"].map(|axis| (format!("{name}.v{axis}"), Kind::Velocity)));
-        }
-        names.extend(["x", "y", "z"].map(|axis| (format!("{name}.force.{axis}"), Kind::Force)));
-        names.extend(["x", "y"].map(|axis| (format!("{name}.moment.{axis}"), Kind::Moment)));
-    }
-    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
-        names.extend(["x", "y"].map(|axis| (format!("shaft.tilt.{axis}"), Kind::Tilt)));
-    }
-    for j in 1..=case.count {
-        names.push((format!("element[{j}].path"), Kind::Length));
-        names.push((format!("element[{j}].axial"), Kind::Across));
-        for side in ["inner", "outer"] {
-            names.push((format!("element[{j}].force.{side}"), Kind::Force));
-            names.push((format!("element[{j}].contact_angle.{side}"), Kind::Angle));
-        }
-    }
-    names
-}
-
-/// The oracle's values, in the order of [`names`].
-fn values(case: &SpatialCase, run: &SpatialRun<'_>) -> Vec<f64> {
-    let mut values = Vec::new();
-    for which in 0..2 {
-        if case.rings[which].motion == Motion::Internal {
-            values.extend(&run.y[10 * which..10 * which + 3]);
-            values.extend(&run.y[10 * which + 5..10 * which + 8]);
-        }
-        values.extend(run.acting.rings[which]);
-    }
-    if case.freedom == 5 && case.rings[0].motion == Motion::Internal {
-        values.extend(&run.y[3..5]);
-    }
-    for (j, ball) in run.acting.balls.iter().enumerate() {
-        values.extend(run.place(j));
-        for touch in ball.contacts {
-            values.extend([touch.force, if touch.approach > 0.0 { touch.angle } else { 0.0 }]);
-        }
-    }
-    values
-}
-
-/// The simulation, with the references of what is compared.
-struct Subject {
-    simulation: Simulation,
-    references: Vec<u32>,
-}
-
-impl Subject {
-    fn new(case: &SpatialCase) -> Result<Self, String> {
-        let scene = brinell_scene_file::from_toml(&case.toml()).map_err(|error| error.to_string())?;
-        let simulation = Simulation::new(scene, None).map_err(|error| error.to_string())?;
-        let references = names(case).iter().map(|(name, _)| simulation.reference(name)).collect::<Result<_, _>>();
-        Ok(Self { references: references.map_err(|error| error.to_string())?, simulation })
-    }
-
-    fn read(&mut self) -> Result<Vec<f64>, SimulationError> {
-        let mut values = vec![0.0; self.references.len()];
-        self.simulation.reals(&self.references, &mut values)?;
-        Ok(values)
-    }
-
-    fn say(&mut self, case: &SpatialCase, step: usize, rates: bool) -> Result<(), SimulationError> {
-        let Some(host) = &case.steps[step].host else { return Ok(()) };
-        let mut all = vec![("shaft.speed".to_owned(), host.speeds[0][0], host.speeds[0][1])];
-        if case.housing_hz.is_some() {
-            all.push(("housing.speed".to_owned(), host.speeds[1][0], host.speeds[1][1]));
-        }
-        for (which, name) in ["shaft", "housing"].into_iter().enumerate() {
-            let free = if case.freedom == 5 && which == 0 { 5 } else { 3 };
-            match case.rings[which].motion {
-                Motion::Internal => {}
-                Motion::Fixed => continue,
-                Motion::Host => {
-                    let places = ["#x", "#y", "#z", "tilt.#x", "tilt.#y"];
-                    for (place, moves) in places.into_iter().zip(host.rings[which]).take(free) {
-                        for (order, value) in ["", "v", "a"].into_iter().zip(moves) {
-                            all.push((format!("{name}.{}", place.replace('#', order)), value, 0.0));
-                        }
-                    }
-                    continue;
-                }
-            }
-            let inputs = ["load.x", "load.y", "load.z", "load_moment.x", "load_moment.y"];
-            for (input, [value, rate, _]) in inputs.into_iter().zip(host.rings[which]).take(free) {
-                all.push((format!("{name}.{input}"), value, rate));
-            }
-        }
-        for (name, value, rate) in all {
-            let reference = self.simulation.reference(&name)?;
-            self.simulation.set_reals(&[reference], &[value])?;
-            if rates && rate != 0.0 {
-                self.simulation.set_input_derivatives(&[reference], &[1], &[rate])?;
-            }
-        }
-        Ok(())
-    }
-
-    fn start(&mut self, case: &SpatialCase) -> Result<Vec<f64>, SimulationError> {
-        self.say(case, 0, false)?;
-        self.simulation.initialize(0.0)?;
-        self.read()
-    }
-
-    fn step(&mut self, case: &SpatialCase, step: usize) -> Result<Vec<f64>, SimulationError> {
-        self.say(case, step, true)?;
-        self.simulation.step(case.steps[step].length)?;
-        self.read()
-    }
-}
-
 /// One unit of each kind, for the largest approach (m) so far.
 fn units(bearing: &SpatialBearing, case: &SpatialCase, approach: f64) -> BTreeMap<Kind, f64> {
-    let length = case.tolerance * (approach + 1e-7) + 1e-14 * bearing.rho_0;
+    let path = if case.defects.is_empty() { 0.0 } else { KEPT_PATH * bearing.radius };
+    let length = case.tolerance * (approach + 1e-7) + 1e-14 * bearing.rho_0 + path;
     let velocity = 1e3 * case.tolerance * (approach + 1e-7) + 1e-11 * bearing.rho_0;
     let stiff = bearing.constants().into_iter().fold(0.0, f64::max) * 1.5 * approach.sqrt();
     let damped = match case.damping {
-        crate::case::Damping::HuntCrossley(chi) => chi * stiff * approach / 1.5,
-        crate::case::Damping::Proportional(tau) => tau * stiff,
+        Damping::HuntCrossley(chi) => chi * stiff * approach / 1.5,
+        Damping::Proportional(tau) => tau * stiff,
     };
     let force = (length * stiff + velocity * damped) * (1.0 + case.count as f64 / 3.0);
     // Across the groove a ball is held a tenth as stiffly as along the normal.
     let short = case.conformities.into_iter().fold(f64::INFINITY, f64::min) * case.diameter_mm * 1e-3 - bearing.radius;
+    let angle = 10.0 * length / short;
     BTreeMap::from([
         (Kind::Length, length),
         (Kind::Velocity, velocity),
         (Kind::Across, 10.0 * length),
         (Kind::Tilt, length / bearing.rho_0),
-        (Kind::Angle, 10.0 * length / short),
+        (Kind::TiltRate, velocity / bearing.rho_0),
+        (Kind::Angle, angle),
+        (Kind::Margin, angle),
         (Kind::Force, force),
         (Kind::Moment, force * bearing.rho_0),
     ])
@@ -175,77 +50,157 @@ fn largest_difference(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut
     }
 }
 
-/// What became of a scene: how much of it was judged.
-fn judge(case: &SpatialCase) -> Result<f64, String> {
-    let bearing = SpatialBearing::new(case);
-    let host = case.steps[0].host.as_ref();
-    let sense = case.rings[0].load[2].signum();
-    let hosted = host.filter(|_| case.rings[0].motion == Motion::Host);
-    let z = hosted.map_or(sense * 20e-6, |host| host.rings[0][2][0]);
-    let balance = bearing.balance(host, [0.0, 0.0, z, 0.0, 0.0]);
-    let forces = |balance: &Balance| {
-        balance.held.balls.iter().flat_map(|ball| ball.contacts).fold(0.0f64, |m, touch| m.max(touch.force))
-    };
-    let found = balance.filter(|found| found.left.max(found.held.left) <= 1e-8 * forces(found));
+/// An oracle, another whose difference quotients go half as far, from a balance of its own, and what becomes of that
+/// one when it is pushed.
+struct Oracles<'a> {
+    case: &'a SpatialCase,
+    bearing: &'a SpatialBearing,
+    names: Vec<(String, Kind)>,
+    runs: [SpatialRun<'a>; 3],
+    /// Largest differences of the first two so far, and of the last two.
+    own: BTreeMap<Kind, f64>,
+    grown: BTreeMap<Kind, f64>,
+    /// Largest approach (m) so far.
+    largest: f64,
+}
+
+impl<'a> Oracles<'a> {
+    fn new(case: &'a SpatialCase, [bearing, rough]: [&'a SpatialBearing; 2], state: Vec<f64>) -> Self {
+        let host = case.steps[0].host.as_ref();
+        let run = |bearing, state, exact| SpatialRun::new(bearing, state, host, [0.0; 2], exact, BUDGET);
+        let roughly = rough.rest(host).map_or_else(|| state.clone(), |found| found.state);
+        let fine = run(bearing, state, EXACT);
+        let largest = deepest(&fine);
+        let off = pushed(bearing, roughly.clone(), units(bearing, case, largest)[&Kind::Length]);
+        let runs = [fine, run(rough, roughly, 100.0 * EXACT), run(rough, off, 100.0 * EXACT)];
+        let (own, grown) = (BTreeMap::new(), BTreeMap::new());
+        let mut oracles = Self { case, bearing, names: names(case), runs, own, grown, largest };
+        let [fine, coarse, _] = oracles.values();
+        largest_difference(&oracles.names, &coarse, &fine, &mut oracles.own);
+        oracles
+    }
+
+    fn values(&self) -> [Vec<f64>; 3] {
+        self.runs.each_ref().map(|run| values(self.case, run))
+    }
+
+    fn step(&mut self, i: usize) -> Result<(), Stop> {
+        let step = &self.case.steps[i];
+        let taken = self.runs.each_mut().map(|run| run.step(step.length, step.host.as_ref()));
+        if taken.contains(&Err(Stop::Left)) {
+            return Err(Stop::Left);
+        }
+        taken.into_iter().collect::<Result<(), _>>()?;
+        self.largest = self.largest.max(deepest(&self.runs[0]));
+        let [fine, coarse, pushed] = self.values();
+        largest_difference(&self.names, &coarse, &fine, &mut self.own);
+        largest_difference(&self.names, &pushed, &coarse, &mut self.grown);
+        Ok(())
+    }
+
+    /// What a difference may be.
+    fn allowed(&self) -> BTreeMap<Kind, f64> {
+        let more = |kind| {
+            [&self.own, &self.grown].into_iter().map(|found| found.get(&kind).copied().unwrap_or(0.0)).sum::<f64>()
+        };
+        let units = units(self.bearing, self.case, self.largest);
+        units.into_iter().map(|(kind, unit)| (kind, LIMIT * (unit + more(kind)) + 1e-9 * unit)).collect()
+    }
+}
+
+/// Largest approach (m) now.
+fn deepest(run: &SpatialRun<'_>) -> f64 {
+    run.acting.balls.iter().flat_map(|ball| ball.contacts).fold(1e-9, |m, touch| touch.approach.max(m))
+}
+
+fn largest_force(balls: &[Ball]) -> f64 {
+    balls.iter().flat_map(|ball| ball.contacts).fold(0.0, |m, touch| touch.force.max(m))
+}
+
+/// What became of a scene: how much of it was judged, and why no more.
+fn judge(case: &SpatialCase) -> Result<(f64, &'static str), String> {
+    let [bearing, mut rough] = [0, 1].map(|_| SpatialBearing::new(case));
+    rough.quotients = 0.5;
+    // As much is left of what difference quotients say of balls without inertia.
+    let found = bearing.rest(case.steps[0].host.as_ref());
+    let found = found.filter(|found| found.left.max(found.held.left) <= 3e-8 * largest_force(&found.held.balls));
     let mut subject = Subject::new(case)?;
-    let first = match (subject.start(case), &found) {
-        (Ok(first), Some(_)) => first,
+    let (first, state) = match (subject.start(case), found) {
+        (Ok(first), Some(found)) => (first, found.state),
         // One that the simulation finds and the oracle does not is judged by its residual elsewhere.
-        (Ok(_) | Err(_), None) => return Ok(0.0),
+        (Ok(_) | Err(_), None) => return Ok((0.0, "no balance found")),
         (Err(error), Some(_)) => return Err(format!("refused, but there is a balance: {error}")),
     };
-    let (names, state) = (names(case), found.as_ref().map(|found| found.state.clone()).unwrap_or_default());
-    let run = |y: Vec<f64>, tolerance: f64| SpatialRun::new(&bearing, y, host, [0.0; 2], tolerance, BUDGET);
-    let approach = |run: &SpatialRun<'_>| {
-        run.acting.balls.iter().flat_map(|ball| ball.contacts).fold(1e-9f64, |m, touch| m.max(touch.approach))
-    };
-    let (mut fine, mut coarse) = (run(state.clone(), EXACT), run(state.clone(), 100.0 * EXACT));
-    let mut largest = approach(&fine);
-    let unit = units(&bearing, case, largest);
-    let mut pushed = run(pushed(&bearing, state, unit[&Kind::Length]), 100.0 * EXACT);
-    let (mut own, mut grown) = (BTreeMap::new(), BTreeMap::new());
-    compare(&names, &first, &values(case, &fine), |kind| LIMIT * unit[&kind] + 1e-9)
-        .map_err(|why| format!("at the start {why}"))?;
+    let mut oracles = Oracles::new(case, [&bearing, &rough], state);
+    let allowed = oracles.allowed().into_iter().map(|(kind, allowed)| (kind, allowed + 1e-9)).collect();
+    compare(&oracles.names, &first, &oracles.values()[0], &allowed).map_err(|why| format!("at the start {why}"))?;
     let (mut time, mut judged) = (0.0, 0.0);
     for (i, step) in case.steps.iter().enumerate() {
-        let steps = [&mut fine, &mut coarse, &mut pushed].map(|run| run.step(step.length, step.host.as_ref()));
-        if steps.contains(&Err(Stop::Left)) {
-            return subject.step(case, i).map_or(Ok(judged), |_| Err(format!("step {i}: the oracle's balls leave")));
+        let before = oracles.runs[0].acting.balls.clone();
+        match oracles.step(i) {
+            Ok(()) => {}
+            Err(Stop::Budget) => return Ok((judged, "too many steps for the oracle")),
+            Err(Stop::Lost) => return Ok((judged, "a ball without inertia has no balance")),
+            Err(Stop::Left) if subject.step(case, i).is_ok() => {
+                return Err(format!("step {i}: the oracle's balls leave"));
+            }
+            Err(Stop::Left) => return Ok((judged, "balls leave")),
         }
-        if steps.iter().any(Result::is_err) {
-            return Ok(judged);
+        let ([expected, ..], allowed) = (oracles.values(), oracles.allowed());
+        let after = &oracles.runs[0].acting.balls;
+        if !expected.iter().all(|value| value.is_finite()) {
+            return Ok((judged, "a ball without inertia has no balance"));
         }
-        largest = largest.max(approach(&fine));
-        let expected = values(case, &fine);
-        largest_difference(&names, &values(case, &coarse), &expected, &mut own);
-        largest_difference(&names, &values(case, &pushed), &values(case, &coarse), &mut grown);
-        let unit = units(&bearing, case, largest);
-        let allowed = |kind: Kind| LIMIT * (unit[&kind] + own[&kind] + grown[&kind]) + 1e-9 * unit[&kind];
-        let scale = fine.acting.balls.iter().flat_map(|ball| ball.contacts).fold(1e-3, |m, touch| touch.force.max(m));
-        if allowed(Kind::Force) > HORIZON * scale {
-            return Ok(judged);
+        if allowed[&Kind::Force] > HORIZON * largest_force(after).max(1e-3) {
+            return Ok((judged, "chaos, or the oracle's own error"));
         }
-        let sample = subject.step(case, i).map_err(|error| format!("step {i}: {error}"))?;
-        compare(&names, &sample, &expected, allowed).map_err(|why| format!("step {i}: {why}"))?;
+        let sample = match subject.step(case, i) {
+            Ok(sample) => sample,
+            Err(error) if error.to_string().contains("contact angle") && is_steep([&before, after]) => {
+                return Ok((judged, "a contact leans by 80 degrees"));
+            }
+            Err(error) => return Err(format!("step {i}: {error}")),
+        };
+        compare(&oracles.names, &sample, &expected, &allowed).map_err(|why| format!("step {i}: {why}"))?;
         time += step.length;
         judged = time / case.duration();
     }
-    Ok(judged)
+    Ok((judged, "to its end"))
 }
 
 fn compare(
     names: &[(String, Kind)],
     sample: &[f64],
     expected: &[f64],
-    allowed: impl Fn(Kind) -> f64,
+    allowed: &BTreeMap<Kind, f64>,
 ) -> Result<(), String> {
-    for (((name, kind), a), b) in names.iter().zip(sample).zip(expected) {
+    for (i, ((name, kind), (a, b))) in names.iter().zip(sample.iter().zip(expected)).enumerate() {
+        let mut limit = allowed[kind];
+        if let Some(behind) = kind.behind_its_force() {
+            let [force, of_sample] = [expected[i - behind], sample[i - behind]];
+            if *kind == Kind::Angle && of_sample == 0.0 && *a != 0.0 {
+                return Err(format!("{name} is {a:e} where the contact is open"));
+            }
+            // One that is just touched may as well be open.
+            if force <= allowed[&Kind::Force] {
+                continue;
+            }
+            if *kind == Kind::Margin {
+                limit += allowed[&Kind::Force] / (3.0 * force);
+            }
+        }
         let off = (a - b).abs();
-        if !(off <= allowed(*kind)) {
-            return Err(format!("{name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {:e}", allowed(*kind)));
+        if !(off <= limit) {
+            return Err(format!("{name} is {a:e}, the oracle says {b:e}: {off:e} apart, allowed {limit:e}"));
         }
     }
     Ok(())
+}
+
+/// Whether a contact leans by 80 degrees before or after a step, where the simulation gives up.
+fn is_steep(balls: [&[Ball]; 2]) -> bool {
+    let touches = balls.into_iter().flatten().flat_map(|ball| ball.contacts);
+    touches.into_iter().any(|touch| touch.force > 0.0 && touch.angle.abs().to_degrees() >= 80.0)
 }
 
 /// The state with every ball and the shaft moved by so much.
@@ -262,28 +217,47 @@ fn pushed(bearing: &SpatialBearing, mut y: Vec<f64>, length: f64) -> Vec<f64> {
 
 #[test]
 fn every_random_scene_in_space_is_a_possible_one() {
-    let hosted = std::sync::atomic::AtomicUsize::new(0);
+    let drawn = std::sync::Mutex::new(BTreeMap::new());
     for_seeds(300, |_, draw: &mut Draw| {
         let case = random(draw);
-        let count = usize::from(case.rings[0].motion == Motion::Host);
-        hosted.fetch_add(count, std::sync::atomic::Ordering::Relaxed);
+        let on_ball = case.defects.iter().any(|defect| matches!(defect.on, On::Element { .. }));
+        for (what, is) in [
+            ("host moves the shaft", case.rings[0].motion == Motion::Host),
+            ("host moves the housing", case.rings[1].motion == Motion::Host),
+            ("balls without inertia", !case.inertia),
+            ("gyroscopic couple", case.gyroscopic != Gyroscopic::Nobody),
+            ("defect on a ball", on_ball),
+            ("several defects", case.defects.len() > 1),
+            ("operating angle left open", case.operating_deg.is_none()),
+            ("shoulder", case.shoulders_mm != [None; 2]),
+        ] {
+            *drawn.lock().unwrap().entry(what).or_insert(0) += usize::from(is);
+        }
         brinell_scene_file::from_toml(&case.toml()).map(|_| ()).map_err(|error| format!("{error}\n{}", case.toml()))
     });
-    assert!(hosted.into_inner() > 50, "the host moves hardly any shaft");
+    let drawn = drawn.into_inner().unwrap();
+    println!("{drawn:?}");
+    assert!(drawn.values().all(|&count| count > 25), "hardly drawn: {drawn:?}");
 }
 
 #[test]
 fn random_scenes_in_space_agree_with_the_oracle() {
-    let judged = std::sync::Mutex::new(Vec::new());
-    for_seeds(12, |_, draw| {
+    let judged = std::sync::Mutex::new(BTreeMap::<_, Vec<f64>>::new());
+    for_seeds(24, |_, draw| {
         let case = random(draw);
-        let share = judge(&case).map_err(|why| format!("{why}\n{}{:?}", case.toml(), case.steps))?;
-        judged.lock().unwrap().push(share);
+        let (share, why) = judge(&case).map_err(|why| format!("{why}\n{}{:?}", case.toml(), case.steps))?;
+        judged.lock().unwrap().entry((case.inertia, why)).or_default().push(share);
         Ok(())
     });
     let judged = judged.into_inner().unwrap();
+    for ((inertia, why), shares) in &judged {
+        let with = if *inertia { "with" } else { "without" };
+        let part = 100.0 * shares.iter().sum::<f64>() / shares.len() as f64;
+        println!("{} {with} inertia: {why}, {part:.0} % of their time", shares.len());
+    }
+    let all: Vec<f64> = judged.into_values().flatten().collect();
+    let part = all.iter().sum::<f64>() / all.len() as f64;
+    println!("{} scenes, {:.0} % of their time judged", all.len(), 100.0 * part);
     // Bounces and balances that nobody finds leave some unjudged.
-    let part = judged.iter().sum::<f64>() / judged.len() as f64;
-    println!("{} scenes, {:.0} % of their time judged", judged.len(), 100.0 * part);
-    assert!(part > 0.4, "{judged:?}");
+    assert!(part > 0.4, "{all:?}");
 }

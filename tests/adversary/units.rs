@@ -15,10 +15,13 @@ pub const LIMIT: f64 = 100.0;
 /// Largest allowed difference over the largest force up to which runs are compared.
 pub const HORIZON: f64 = 0.02;
 
+/// What interpolating the rigid path of an element leaves, of its radius.
+pub const KEPT_PATH: f64 = 3e-13;
+
 /// How exactly a position is known (m): to some roundings of the radii, and to what interpolating the rigid path
 /// leaves.
 pub fn rounding(bearing: &Bearing) -> f64 {
-    let path = if bearing.defective { 3e-13 * bearing.r } else { 0.0 };
+    let path = if bearing.defective { KEPT_PATH * bearing.r } else { 0.0 };
     4e-15 * bearing.rho_0 + path
 }
 

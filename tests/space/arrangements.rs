@@ -23,6 +23,18 @@ fn shoulders_are_as_far_from_the_ellipses_ends_as_printed() {
     assert!(margin.abs() < 1e-8, "{margin:e}");
 }
 
+#[test]
+fn an_ellipse_at_a_free_contact_angle_is_that_of_its_hertz_constant() {
+    let height = Some(1.5e-3);
+    let bearing = Bearing { shoulder_inner: height, shoulder_outer: height, ..angular(25.0) };
+    let scene = free_shaft(bearing, DegreesOfFreedom::Three).gravity([0.0; 2]).axial_load(500.0);
+    let margins = ["element[1].shoulder.inner", "element[1].shoulder.outer"];
+    // θ_s − α − a₁ Q^(1/3)/r_g with the printed α and Q of that thrust, a₁ from Hertz's integrals by
+    // arithmetic-geometric means at the curvatures ±cos α°/(½ D_pw ∓ r cos α°): 1.4726458e-4 and 1.1688585e-4
+    // m/N^(1/3).
+    printed(&values(&mut started(scene.build().unwrap()), margins), PI / 180.0, &["14.677247", "16.226334"]);
+}
+
 /// Force along z (N) and moment about x (N m) of one bearing on its ring, which a host holds.
 fn held(way: f64, [y, z, tilt]: [f64; 3]) -> [f64; 3] {
     let mut bearing = Bearing { hertz_inner: Some(2.82515273e10), hertz_outer: Some(2.49580607e10), ..angular(25.0) };

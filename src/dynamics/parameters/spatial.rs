@@ -16,6 +16,7 @@ use crate::contact::law::elastic_law;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::excitation::{Excitation, Frame};
 use crate::dynamics::parameters::layout::Layout;
+use crate::geometry::hertz_constant::rolling_radii;
 use crate::scene::{Bearing, DegreesOfFreedom, Gyroscopic, MOST_SENSORS, Motion, Ring, Scene};
 
 /// Coordinates of a ring.
@@ -205,7 +206,8 @@ impl Space {
 fn half_lengths(bearing: &Bearing) -> [f64; 2] {
     [RacewaySide::Inner, RacewaySide::Outer].map(|side| {
         let approach = elastic_law(bearing, side).approach_under(1.0);
-        ElementOnRaceway::at_angle(bearing, side, bearing.contact_angle.unwrap_or(0.0)).contact_half_axes(approach)[1]
+        let raceway_radius = rolling_radii(bearing)[side as usize];
+        ElementOnRaceway { raceway_radius, ..ElementOnRaceway::of(bearing, side) }.contact_half_axes(approach)[1]
     })
 }
 

@@ -3,7 +3,7 @@
 //! The simulation gets it as the text of a scene file and by setting inputs; the oracle reads the numbers themselves.
 
 mod parts;
-mod shape;
+pub(crate) mod shape;
 mod transform;
 
 pub use parts::{Film, Mode, Roller};
@@ -243,34 +243,10 @@ impl Case {
             text.push_str(&film.toml());
         }
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
-        self.write_defects(&mut text);
+        text.push_str(&shape::tables(&self.defects));
         self.write_rings(&mut text);
         writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
         text
-    }
-
-    fn write_defects(&self, text: &mut String) {
-        let title = if self.defects.len() == 1 { "[defect]" } else { "[[defect]]" };
-        for (number, defect) in self.defects.iter().enumerate() {
-            writeln!(text, "{title}\nangle_deg = {:?}", defect.angle_deg).unwrap();
-            match defect.on {
-                On::Outer => {}
-                On::Inner => text.push_str("on = \"inner\"\n"),
-                On::Element { element, tilt_deg } => {
-                    writeln!(text, "on = \"element\"\nelement = {}\ntilt_deg = {tilt_deg:?}", element + 1).unwrap();
-                }
-            }
-            match &defect.shape {
-                Shape::Spall { length, depth_um, slope_deg } => {
-                    match length {
-                        Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
-                        Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
-                    }
-                    writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
-                }
-                Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace-{number}.csv\"").unwrap(),
-            }
-        }
     }
 
     fn write_rings(&self, text: &mut String) {
@@ -298,7 +274,7 @@ impl Case {
 
     /// Texts of the profile files, in the order of the defects.
     pub fn profiles(&self) -> Vec<String> {
-        self.defects.iter().filter_map(|defect| defect.shape.csv()).collect()
+        shape::files(&self.defects)
     }
 
     /// Elements with a defect, from 0, ascending.

@@ -23,6 +23,18 @@ fn integrals(b: f64) -> (f64, f64) {
 
 /// K of Q = K δ^1.5 for two relative principal curvatures (1/m) and the effective modulus (Pa).
 pub(crate) fn stiffness(curvatures: [f64; 2], modulus: f64) -> f64 {
+    let (half_axis, per_square) = ellipse(curvatures);
+    let small = curvatures[0].min(curvatures[1]) / 2.0;
+    half_axis * half_axis * half_axis * 2.0 * PI * modulus * small / (3.0 * per_square)
+}
+
+/// Longer half axis of the contact over the root of its approach (√m), along the smaller curvature.
+pub(crate) fn half_length(curvatures: [f64; 2]) -> f64 {
+    ellipse(curvatures).0
+}
+
+/// That half axis, and (K − E)/e² of the ellipse.
+fn ellipse(curvatures: [f64; 2]) -> (f64, f64) {
     let (small, large) = (curvatures[0].min(curvatures[1]) / 2.0, curvatures[0].max(curvatures[1]) / 2.0);
     // (B/A)(K − E) = (a/b)² E − K = (a/b)² (e² K − (K − E)), which is steep in b: halve its logarithm.
     let excess = |b: f64| {
@@ -43,8 +55,7 @@ pub(crate) fn stiffness(curvatures: [f64; 2], modulus: f64) -> f64 {
     let square = (1.0 - b) * (1.0 + b);
     // (K − E)/e² → π/4 for a circle.
     let per_square = if square < 1e-7 { 0.25 * PI * (1.0 + 0.375 * square) } else { difference / square };
-    let half_axis = (per_square / (k * small)).sqrt();
-    half_axis * half_axis * half_axis * 2.0 * PI * modulus * small / (3.0 * per_square)
+    ((per_square / (k * small)).sqrt(), per_square)
 }
 
 #[test]

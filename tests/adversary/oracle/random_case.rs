@@ -7,8 +7,8 @@
 mod inputs;
 mod parts;
 mod scale;
-mod shape;
-mod space;
+pub(crate) mod shape;
+pub(crate) mod space;
 
 pub use shape::bowl;
 

@@ -176,7 +176,7 @@ pub fn closest(bearing: &Bearing, case: &Case) -> f64 {
 }
 
 /// Arcs and depths (m) of a defect on a body of radius `own`.
-fn points(defect: &Defect, own: f64, r: f64) -> Option<Vec<(f64, f64)>> {
+pub(crate) fn points(defect: &Defect, own: f64, r: f64) -> Option<Vec<(f64, f64)>> {
     match &defect.shape {
         Shape::Trace(points) => {
             let middle = 0.5 * (points[0].0 + points[points.len() - 1].0);

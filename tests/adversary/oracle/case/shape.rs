@@ -1,6 +1,39 @@
-//! What a defect's shape is as a file's text, and how long it is.
+//! What defects are as a scene file's tables and as files of their own, and how long they are.
 
-use super::{Length, Shape, Topography};
+use super::{Defect, Length, On, Shape, Topography};
+use std::fmt::Write;
+
+/// The tables of a scene's defects.
+pub(crate) fn tables(defects: &[Defect]) -> String {
+    let mut text = String::new();
+    let title = if defects.len() == 1 { "[defect]" } else { "[[defect]]" };
+    for (number, defect) in defects.iter().enumerate() {
+        writeln!(text, "{title}\nangle_deg = {:?}", defect.angle_deg).unwrap();
+        match defect.on {
+            On::Outer => {}
+            On::Inner => text.push_str("on = \"inner\"\n"),
+            On::Element { element, tilt_deg } => {
+                writeln!(text, "on = \"element\"\nelement = {}\ntilt_deg = {tilt_deg:?}", element + 1).unwrap();
+            }
+        }
+        match &defect.shape {
+            Shape::Spall { length, depth_um, slope_deg } => {
+                match length {
+                    Length::Degrees(degrees) => writeln!(text, "length_deg = {degrees:?}").unwrap(),
+                    Length::Millimetres(length) => writeln!(text, "length_mm = {length:?}").unwrap(),
+                }
+                writeln!(text, "depth_um = {depth_um:?}\nedge_slope_deg = {slope_deg:?}").unwrap();
+            }
+            Shape::Trace(_) | Shape::Topography(_) => writeln!(text, "profile = \"trace-{number}.csv\"").unwrap(),
+        }
+    }
+    text
+}
+
+/// Texts of their files, in the order of the defects.
+pub(crate) fn files(defects: &[Defect]) -> Vec<String> {
+    defects.iter().filter_map(|defect| defect.shape.csv()).collect()
+}
 
 impl Shape {
     /// Text of its file, if it is from one.

@@ -4,15 +4,15 @@ use crate::case::{Length, On, Shape, Topography};
 use crate::draw::Draw;
 
 /// What a defect is drawn for.
-pub(super) struct Around {
+pub(crate) struct Around {
     /// Radius of an element and of the body with the defect (m).
-    pub r: f64,
-    pub bearer: f64,
-    pub on: On,
+    pub(crate) r: f64,
+    pub(crate) bearer: f64,
+    pub(crate) on: On,
     /// How long it may be (m).
-    pub most: f64,
+    pub(crate) most: f64,
     /// How far elements are pressed into the raceways (m).
-    pub approach: f64,
+    pub(crate) approach: f64,
 }
 
 impl Around {
@@ -32,7 +32,7 @@ impl Around {
 }
 
 /// A defect, and what it is called.
-pub(super) fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
+pub(crate) fn random(draw: &mut Draw, around: &Around) -> (&'static str, Shape) {
     type Drawn = fn(&mut Draw, &Around) -> Shape;
     let kinds: [(&str, Drawn); 8] = [
         ("steep spall", steep),

@@ -5,14 +5,14 @@ use crate::draw::Draw;
 
 /// Which scenes are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Space {
+pub(crate) enum Space {
     OuterRaceway,
     Whole,
 }
 
 impl Space {
     /// The body with the defect.
-    pub(super) fn body(self, draw: &mut Draw, count: usize) -> On {
+    pub(crate) fn body(self, draw: &mut Draw, count: usize) -> On {
         match self {
             Self::OuterRaceway => On::Outer,
             Self::Whole => match draw.below(10) {
@@ -37,7 +37,7 @@ impl Space {
     }
 
     /// Moves some pits of elements off the track, as far as it still meets them and their flanks do not.
-    pub(super) fn tilt(self, draw: &mut Draw, defect: &mut Defect, r: f64) {
+    pub(crate) fn tilt(self, draw: &mut Draw, defect: &mut Defect, r: f64) {
         let (On::Element { tilt_deg, .. }, Shape::Spall { length, depth_um, slope_deg }) =
             (&mut defect.on, &defect.shape)
         else {

@@ -1,6 +1,6 @@
 //! A scene in space and what its host does, in the units of the scene file's keys.
 
-use crate::case::{Damping, Motion};
+use crate::case::{Damping, Defect, Motion, shape};
 use std::fmt::Write;
 
 /// A scene whose rings have three or five degrees of freedom.
@@ -13,8 +13,10 @@ pub struct SpatialCase {
     pub pitch_mm: f64,
     pub conformities: [f64; 2],
     pub setting: AxialSetting,
-    /// Of the kinematics and the tracks.
-    pub operating_deg: f64,
+    /// Of the kinematics and the tracks; left open without.
+    pub operating_deg: Option<f64>,
+    /// Heights of the shoulders, inner and outer (mm).
+    pub shoulders_mm: [Option<f64>; 2],
     pub modulus_gpa: f64,
     pub poisson: f64,
     pub density: f64,
@@ -29,7 +31,8 @@ pub struct SpatialCase {
     /// Whether balls have inertia.
     pub inertia: bool,
     pub gyroscopic: Gyroscopic,
-    pub spalls: Vec<Spall>,
+    /// Without topographies.
+    pub defects: Vec<Defect>,
     /// Shaft, housing.
     pub rings: [SpatialRing; 2],
     pub speed_hz: f64,
@@ -58,19 +61,14 @@ pub enum Gyroscopic {
     Shared,
 }
 
-/// A line spall with sharp edges.
-#[derive(Debug, Clone, Copy)]
-pub struct Spall {
-    pub on: Body,
-    pub angle_deg: f64,
-    pub length_mm: f64,
-    pub depth_um: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Body {
-    Inner,
-    Outer,
+impl Gyroscopic {
+    fn key(self) -> &'static str {
+        match self {
+            Self::Nobody => "none",
+            Self::Outer => "outer",
+            Self::Shared => "shared",
+        }
+    }
 }
 
 /// A ring; its numbers along x, y, z and about x, y.
@@ -133,7 +131,8 @@ impl SpatialCase {
             pitch_mm: 39.04,
             conformities: [0.52; 2],
             setting: AxialSetting::Radial(5.0),
-            operating_deg: 0.0,
+            operating_deg: Some(0.0),
+            shoulders_mm: [None; 2],
             modulus_gpa: 207.0,
             poisson: 0.3,
             density: 7800.0,
@@ -145,7 +144,7 @@ impl SpatialCase {
             cage_deg: -90.0,
             inertia: true,
             gyroscopic: Gyroscopic::Nobody,
-            spalls: Vec::new(),
+            defects: Vec::new(),
             rings: [SpatialRing::FIXED; 2],
             speed_hz: 0.0,
             housing_hz: None,
@@ -167,21 +166,28 @@ impl SpatialCase {
             AxialSetting::Play(play) => put("axial_clearance_um", play),
             AxialSetting::Angle(angle) => put("contact_angle_deg", angle),
         }
-        put("operating_angle_deg", self.operating_deg);
         put("youngs_modulus_gpa", self.modulus_gpa);
         put("poissons_ratio", self.poisson);
         match self.mass_g {
             Some(mass) => put("element_mass_g", mass),
             None => put("density_kg_m3", self.density),
         }
-        for (key, value) in ["hertz_inner_n_m1_5", "hertz_outer_n_m1_5"].into_iter().zip(self.hertz) {
+        let [[k_i, k_o], [h_i, h_o]] = [self.hertz, self.shoulders_mm];
+        for (key, value) in [
+            ("operating_angle_deg", self.operating_deg),
+            ("hertz_inner_n_m1_5", k_i),
+            ("hertz_outer_n_m1_5", k_o),
+            ("shoulder_inner_mm", h_i),
+            ("shoulder_outer_mm", h_o),
+        ] {
             if let Some(value) = value {
                 put(key, value);
             }
         }
         let inertia = if self.inertia { "full" } else { "none" };
         writeln!(text, "element_count = {}\ndegrees_of_freedom = {}", self.count, self.freedom).unwrap();
-        writeln!(text, "element_inertia = \"{inertia}\"\n[contact]\nlaw = \"hertz\"").unwrap();
+        writeln!(text, "element_inertia = \"{inertia}\"\ngyroscopic = \"{}\"", self.gyroscopic.key()).unwrap();
+        text.push_str("[contact]\nlaw = \"hertz\"\n");
         match self.damping {
             Damping::HuntCrossley(chi) => writeln!(text, "damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}"),
             Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
@@ -189,11 +195,7 @@ impl SpatialCase {
         .unwrap();
         writeln!(text, "across_damping_s_m = {:?}", self.across).unwrap();
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
-        for spall in &self.spalls {
-            let on = if spall.on == Body::Inner { "inner" } else { "outer" };
-            writeln!(text, "[[defect]]\non = \"{on}\"\nangle_deg = {:?}", spall.angle_deg).unwrap();
-            writeln!(text, "length_mm = {:?}\ndepth_um = {:?}", spall.length_mm, spall.depth_um).unwrap();
-        }
+        text.push_str(&shape::tables(&self.defects));
         self.write_rings(&mut text);
         writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
         text
@@ -227,6 +229,11 @@ impl SpatialCase {
                 writeln!(text, "tilt_damping_n_m_s = {tilt:?}\ntilt_stiffness_n_m_rad = {k_tilt:?}").unwrap();
             }
         }
+    }
+
+    /// Texts of the profile files, in the order of the defects.
+    pub fn profiles(&self) -> Vec<String> {
+        shape::files(&self.defects)
     }
 
     /// Length of the whole run (s).

@@ -1,5 +1,6 @@
 //! One contact: a ball's centre and the circle of one groove's centres of curvature.
 
+use super::surfaces::Over;
 use super::vector::{Vector, add, cross, dot, length, subtract, times};
 use crate::case::Damping;
 
@@ -15,6 +16,17 @@ pub(super) struct Groove {
     pub(super) touching: f64,
     /// Hertz's constant (N/m^1.5).
     pub(super) stiffness: f64,
+}
+
+/// What damps a contact: along its normal, and across the groove (s/m).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dampers {
+    pub(super) normal: Damping,
+    pub(super) across: f64,
+}
+
+impl Dampers {
+    pub(super) const NONE: Self = Self { normal: Damping::HuntCrossley(0.0), across: 0.0 };
 }
 
 /// Where a ring is and how it moves.
@@ -49,8 +61,9 @@ pub struct Touch {
     pub approach: f64,
     /// From the ring's centre to the ball's.
     pub arm: Vector,
-    /// All that the ring does to the ball (N).
+    /// All that the ring does to the ball (N), and its moment about the ring's centre (N m).
     pub on_ball: Vector,
+    pub moment: Vector,
     /// Outwards in the ring's plane, along its axis, forwards.
     pub(super) frame: [Vector; 3],
     /// Distance from the ring's axis (m).
@@ -81,17 +94,21 @@ impl Touch {
         [angle, dot(self.velocity, forwards) / self.distance]
     }
 
-    /// With the groove's force: `sunk` is the path of a spall and its derivative, `past` how fast the ball goes along
-    /// it (rad/s).
-    pub(super) fn pushed(
-        mut self,
-        groove: &Groove,
-        [sunk, slope]: [f64; 2],
-        past: f64,
-        damping: Damping,
-        across: f64,
-    ) -> Self {
-        let [outwards, axis, forwards] = self.frame;
+    /// What the ball does to the ring: forces, and moments about x and y.
+    pub(super) fn on_ring(&self) -> [f64; 5] {
+        let ([x, y, z], [about_x, about_y, _]) = (self.on_ball, self.moment);
+        [x, y, z, about_x, about_y].map(|part| -part)
+    }
+
+    /// The direction away from the groove's circle outside, and towards it inside; and that across the groove.
+    pub(super) fn normal_and_across(&self) -> [Vector; 2] {
+        let ([outwards, axis, _], (sin, cos)) = (self.frame, self.angle.sin_cos());
+        [add(times(cos, outwards), times(sin, axis)), add(times(-sin, outwards), times(cos, axis))]
+    }
+
+    /// With the groove's force, over a defect or none.
+    pub(super) fn pushed(mut self, groove: &Groove, over: Over, dampers: Dampers) -> Self {
+        let ([_, axis, forwards], Over { sunk, slope, past }) = (self.frame, over);
         let sign = if groove.inner { -1.0 } else { 1.0 };
         // From the groove's circle to the ball for the outer ring, from the ball to the circle for the inner one.
         let radial = sign * (self.distance - groove.circle);
@@ -102,20 +119,19 @@ impl Touch {
         if self.approach <= 0.0 {
             return self;
         }
-        let (sin, cos) = (axial / far, radial / far);
-        let normal = add(times(cos, outwards), times(sin, axis));
+        let [normal, sideways] = self.normal_and_across();
         let rate = sign * dot(normal, self.velocity) - slope * past;
         let elastic = groove.stiffness * self.approach * self.approach.sqrt();
-        let damper = match damping {
+        let damper = match dampers.normal {
             Damping::HuntCrossley(chi) => elastic * chi,
             Damping::Proportional(tau) => 1.5 * groove.stiffness * self.approach.sqrt() * tau,
         };
         self.force = (elastic + damper * rate).max(0.0);
         let lean = (slope / self.distance).atan();
-        let sideways = add(times(-sin, outwards), times(cos, axis));
-        let drag = -across * self.force * dot(sideways, self.velocity);
+        let drag = -dampers.across * self.force * dot(sideways, self.velocity);
         let push = add(times(-sign * lean.cos(), normal), times(lean.sin(), forwards));
         self.on_ball = add(times(self.force, push), times(drag, sideways));
+        self.moment = cross(self.arm, self.on_ball);
         self
     }
 }

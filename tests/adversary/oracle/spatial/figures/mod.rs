@@ -1,5 +1,7 @@
 //! Balances that are known: figures of an independent reference and of published tables.
 
+mod motion;
+
 use super::*;
 use crate::case::{Damping, Motion};
 
@@ -29,7 +31,7 @@ fn angular(freedom: usize, load: [f64; 5]) -> SpatialCase {
         pitch_mm: 38.5,
         conformities: [0.515, 0.525],
         setting: AxialSetting::Angle(25.0),
-        operating_deg: 25.0,
+        operating_deg: Some(25.0),
         mass_g: Some(2.0427),
         ..standing(freedom, load)
     }
@@ -269,7 +271,7 @@ fn gyroscopic_couples_shift_the_balance_by_who_holds_them() {
         }
         if who == Gyroscopic::Outer {
             let shaft = bearing.speeds[0];
-            printed(bearing.gyroscopic_moment(shaft, bearing.cage[0] * shaft, ball), 0.017_320_6, 1e-7);
+            printed(bearing.gyroscopic_moment(shaft, bearing.ratios[0][0] * shaft, ball), 0.017_320_6, 1e-7);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Motions that are known: two other right-hand sides and integrations of them agree to 1e-14 m.
 
-use super::bearing::BALLS;
-use super::*;
+use crate::case::{Defect, Length, On, Shape};
+use crate::spatial::bearing::BALLS;
+use crate::spatial::*;
 use std::f64::consts::TAU;
 
 /// A tenth of what is printed last.
@@ -21,6 +22,12 @@ fn rig(case: SpatialCase, load: [f64; 5], later: [f64; 5]) -> SpatialCase {
         steps: vec![Step { length: 1e-3, host: Some(says(load)) }, Step { length: 5e-3, host: Some(says(later)) }],
         ..case
     }
+}
+
+/// A spall of 0.3 mm, 100 µm deep.
+fn sharp(on: On, angle_deg: f64) -> Defect {
+    let shape = Shape::Spall { length: Length::Millimetres(0.3), depth_um: 100.0, slope_deg: 90.0 };
+    Defect { on, angle_deg, shape }
 }
 
 /// An instant of a run: shaft (µm, mrad), u and v of ball 1 (µm), its forces (N) and angles (°) inside and outside.
@@ -63,7 +70,7 @@ fn an_angular_contact_bearing_follows_a_step_of_its_loads() {
         pitch_mm: 38.5,
         conformities: [0.515, 0.525],
         setting: AxialSetting::Angle(20.0),
-        operating_deg: 20.0,
+        operating_deg: Some(20.0),
         speed_hz: 60.0,
         mass_g: Some(2.0427),
         cage_deg: -80.0,
@@ -99,7 +106,7 @@ fn a_tilting_6205_follows_a_step_of_its_moments() {
     let case = SpatialCase {
         freedom: 5,
         setting: AxialSetting::Radial(8.0),
-        operating_deg: 15.0,
+        operating_deg: Some(15.0),
         speed_hz: 40.0,
         mass_g: Some(2.0443),
         cage_deg: -80.0,
@@ -130,11 +137,11 @@ fn a_tilting_6205_follows_a_step_of_its_moments() {
 #[test]
 fn a_ball_at_a_contact_angle_crosses_a_spall() {
     let mut case = SpatialCase {
-        operating_deg: 15.0,
+        operating_deg: Some(15.0),
         speed_hz: 30.0,
         mass_g: Some(2.0443),
         cage_deg: -103.017_492_131_6,
-        spalls: vec![Spall { on: Body::Outer, angle_deg: -90.0, length_mm: 0.3, depth_um: 100.0 }],
+        defects: vec![sharp(On::Outer, -90.0)],
         ..SpatialCase::at_rest()
     };
     case = rig(case, [0.0, -200.0, 400.0, 0.0, 0.0], [0.0, -200.0, 400.0, 0.0, 0.0]);
