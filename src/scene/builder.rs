@@ -79,6 +79,7 @@ impl Bearing {
             element_count: count,
             element_diameter,
             diameter_offsets: Vec::new(),
+            drawn_diameters: None,
             pitch_diameter,
             conformity_inner: 0.52,
             conformity_outer: 0.52,

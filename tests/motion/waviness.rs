@@ -48,10 +48,6 @@ fn load_distributions_are_those_of_an_independent_computation() {
         ] {
             let mut scene = with(loaded(), &[waves(on, order, 1e-6, crest)]);
             scene.bearing.element_inertia = inertia;
-            if inertia == ElementInertia::None {
-                // Without any weight an element that nothing presses rests a rounding inside its touch: 3e-9 N here.
-                scene.gravity[1] = -1e-6;
-            }
             (scene.cage.initial_angle, scene.shaft_initial_angle) = (f64::to_radians(cage), f64::to_radians(shaft));
             let found = start(scene);
             // Printed are normal forces; outputs have the part along the raceway with them, outside by w'/ρ.
