@@ -66,7 +66,7 @@ fn load_distributions_are_those_of_an_independent_computation() {
     }
 }
 
-/// What Newton's method left of a contact that ends without force was no balance: nine of 288 such bearings were refused.
+/// What Newton's method left of a contact that ends without force was no balance: nine of 288 bearings were refused.
 #[test]
 fn elements_without_weight_and_inertia_find_their_place_under_any_load_or_none() {
     for on in [WavyBody::Outer, WavyBody::Inner, WavyBody::Element(1)] {

@@ -1,18 +1,16 @@
 //! Bodies that are not what their nominal radii say: elements of unequal size, and waves.
 //!
-//! An element larger by Δ, of radius r + Δ/2, touches the smooth outer raceway at R_o − r − Δ/2 from its centre, and
-//! has Δ less of clearance. Raceways and grooves keep their radii, so its Hertz constants are of its own; its mass grows
-//! with D³, a roller's with D².
+//! An element larger by Δ, of radius r + Δ/2, touches the smooth outer raceway at R_o − r − Δ/2 from its centre and has
+//! Δ less of clearance. Raceways and grooves keep their radii, so its Hertz constants are of its own; its mass
+//! grows with D³, a roller's with D².
 //!
 //! A body's radius is B + Σ w_n cos n(ψ − ψ_n) in its own frame. An outer raceway's crest lets an element by as much
 //! farther out, as a path P does; another body's crest keeps it away. With E(δ) the contact's energy and δ = u − P(ψ)
 //! the forces are Q along the line of centres and Q P′ over the centres' distance across it.
 
-use crate::bearing::Bearing;
 use crate::case::{Case, On, Wave};
 use crate::growth::Growth;
 use crate::hertz;
-use crate::instant::Seat;
 use crate::surface::Rise;
 use crate::turning::{HOUSING, SHAFT, SPIN, Turns};
 use std::f64::consts::{PI, TAU};
@@ -72,14 +70,14 @@ pub(crate) struct Waves {
     /// Angle 0 of the body, as the contact meets it while its frame stands at 0 (rad).
     zero: f64,
     /// Order, P at a crest (m), angle of a crest (rad).
-    all: Vec<[f64; 3]>,
+    pub(crate) all: Vec<[f64; 3]>,
 }
 
 /// Waves of rings, inner and outer, and of elements, on their inner and their outer side.
 #[derive(Debug, Clone, Default)]
 pub struct AllWaves {
-    rings: [Option<Waves>; 2],
-    elements: Vec<Option<[Waves; 2]>>,
+    pub(crate) rings: [Option<Waves>; 2],
+    pub(crate) elements: Vec<Option<[Waves; 2]>>,
 }
 
 impl Waves {
@@ -91,7 +89,7 @@ impl Waves {
     }
 
     /// P and dP/dψ of waves where a contact meets them, how fast it passes, and what the waves turn with.
-    fn rise(&self, [direction, rate]: [f64; 2], turns: &Turns) -> Rise {
+    pub(crate) fn rise(&self, [direction, rate]: [f64; 2], turns: &Turns) -> Rise {
         let psi = direction - turns[self.frame][0] - self.zero;
         let sum = |of: &dyn Fn(&[f64; 3]) -> f64| self.all.iter().map(of).sum::<f64>();
         Rise {
@@ -114,34 +112,5 @@ impl AllWaves {
             Some([Waves::of(case, body, SPIN, outwards - PI)?, Waves::of(case, body, SPIN, outwards)?])
         };
         Self { rings, elements: (0..case.count).map(element).collect() }
-    }
-}
-
-impl Bearing {
-    /// What of element `j` is its own.
-    pub fn own(&self, j: usize) -> &Own {
-        &self.own[j % self.own.len()]
-    }
-
-    /// Where element `j` touches the smooth outer raceway (m from the outer ring's centre), and its clearance (m).
-    pub fn place(&self, j: usize) -> [f64; 2] {
-        let larger = self.own(j).larger;
-        [self.rho_0 - 0.5 * larger, self.clearance - larger]
-    }
-
-    /// The waves under a contact of element `j`; no two bodies of one contact have any.
-    pub fn wave(&self, side: usize, j: usize, seat: &Seat, turns: &Turns) -> Rise {
-        let of_element = self.waves.elements.get(j).and_then(Option::as_ref).map(|sides| &sides[side]);
-        let waves = self.waves.rings[side].as_ref().or(of_element);
-        waves.map_or(Rise::default(), |waves| waves.rise(seat.turning(side, turns), turns))
-    }
-
-    /// The fastest that a wave goes by while a ring turns so fast against the other (rad/s).
-    pub fn ripple(&self, speed: f64) -> f64 {
-        let most = |waves: &Waves| waves.all.iter().fold(0.0f64, |most, [n, ..]| most.max(*n));
-        let rings = self.waves.rings.iter().flatten().map(most).fold(0.0, f64::max);
-        let elements = self.waves.elements.iter().flatten().map(|sides| most(&sides[0])).fold(0.0, f64::max);
-        // A ring passes the cage with the other's speed at most, and the elements spin faster.
-        speed * (rings + elements * (self.ratios[SPIN][0].abs() + self.ratios[SPIN][1].abs() + 1.0))
     }
 }

@@ -12,8 +12,8 @@ use std::fmt::{self, Display, Formatter, Write};
 /// up.
 pub struct Entry {
     pub seed: u64,
-    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls, and whether
-    /// that is of one size and all is round.
+    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls, and
+    /// whether that is of one size and all is round.
     names: [String; 7],
     tolerance: f64,
     /// Whether the numbers of `stiffness`, its critical load and `modes` were compared.

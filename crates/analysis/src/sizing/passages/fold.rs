@@ -45,8 +45,8 @@ pub struct Passages {
 }
 
 impl Passages {
-    /// Even passages, `most` of them, before anything is known of them. `period` is the ball pass period (samples) as the
-    /// envelope's spectrum gives it.
+    /// Even passages, `most` of them, before anything is known of them. `period` is the ball pass period (samples) as
+    /// the envelope's spectrum gives it.
     pub fn even(samples: usize, period: f64, most: usize) -> Self {
         // One period at each end is lost to the filters' ends and to shifts.
         let count = ((samples as f64 / period) as usize).saturating_sub(2).min(most);
