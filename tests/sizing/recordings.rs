@@ -207,8 +207,8 @@ fn the_kind_of_recorded_faults_is_named_no_worse_than_by_a_squared_envelope_spec
             // BPFI is 1.5 times BPFO: what is named there would be wrong.
             assert!(kinds.wrong == 0 && given == 0 && *foreign == 0, "{rig}, {stretch}: {kinds}");
         } else {
-            // Within 20 turns nothing in a signal may confirm its speed, and what another speed would suit as well is not
-            // named: sizing asks for that, and the script does not.
+            // Within 20 turns nothing in a signal may confirm its speed, and what another speed would suit as well is
+            // not named: sizing asks for that, and the script does not.
             assert!(*stretch == "1 s" || kinds.right >= script.right, "{rig}, {stretch}: {kinds}, by script {script}");
             assert!(kinds.wrong <= script.wrong && kinds.alarms <= script.alarms, "{rig}, {stretch}: {kinds}");
             assert_eq!(*foreign, 0, "{rig}, {stretch}");

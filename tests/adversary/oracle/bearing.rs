@@ -87,6 +87,17 @@ impl Bearing {
         }
     }
 
+    /// What of element `j` is its own.
+    pub fn own(&self, j: usize) -> &Own {
+        &self.own[j % self.own.len()]
+    }
+
+    /// Where element `j` touches the smooth outer raceway (m from the outer ring's centre), and its clearance (m).
+    pub fn place(&self, j: usize) -> [f64; 2] {
+        let larger = self.own(j).larger;
+        [self.rho_0 - 0.5 * larger, self.clearance - larger]
+    }
+
     /// How many numbers a state has.
     pub fn state_count(&self) -> usize {
         self.first_mode() + 2 * self.modes.len()

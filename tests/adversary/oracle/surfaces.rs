@@ -6,7 +6,7 @@ use crate::envelope::{Envelope, Feature, Pair};
 use crate::instant::{Outside, Seat};
 use crate::surface::{Rise, Stretches, Surface, Surfaces};
 use crate::turning::{HOUSING, SHAFT, SPIN, Turns, quadratic};
-use crate::uneven::{Own, Waves};
+use crate::uneven::Waves;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The surface that a contact is over, with its number and the stretch, and P, dP/dψ and the speed past it.
@@ -104,17 +104,6 @@ impl Bearing {
 }
 
 impl Bearing {
-    /// What of element `j` is its own.
-    pub fn own(&self, j: usize) -> &Own {
-        &self.own[j % self.own.len()]
-    }
-
-    /// Where element `j` touches the smooth outer raceway (m from the outer ring's centre), and its clearance (m).
-    pub fn place(&self, j: usize) -> [f64; 2] {
-        let larger = self.own(j).larger;
-        [self.rho_0 - 0.5 * larger, self.clearance - larger]
-    }
-
     /// The waves under a contact of element `j`; no two bodies of one contact have any.
     pub fn wave(&self, side: usize, j: usize, seat: &Seat, turns: &Turns) -> Rise {
         let of_element = self.waves.elements.get(j).and_then(Option::as_ref).map(|sides| &sides[side]);
