@@ -1,5 +1,6 @@
 //! The command line of the repository, `cargo fmu`: what users run, and the studies behind the pages in `docs/`.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -77,12 +78,22 @@ struct Validate {
     /// Compute this part alone; the other tables are those of the last run
     #[arg(long, value_enum, value_name = "PART")]
     only: Option<validation::Part>,
+    /// Sizes the synthetic machines with these numbers and nothing else: how many intervals hold, and how wide they are
+    #[arg(long, value_name = "FROM..TO", value_parser = machines, exclusive = true)]
+    machines: Option<Range<u64>>,
     /// Folder for validation.md and figures [default: docs]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figures out; no Python is needed then
     #[arg(long)]
     no_figure: bool,
+}
+
+/// Numbers of machines as they are typed.
+fn machines(text: &str) -> Result<Range<u64>, String> {
+    let wanted = || format!("{text}: two whole numbers are wanted, as in 900..940");
+    let (from, to) = text.split_once("..").ok_or_else(wanted)?;
+    Ok(from.parse().map_err(|_| wanted())?..to.parse().map_err(|_| wanted())?)
 }
 
 impl Arguments {
@@ -108,6 +119,10 @@ impl Arguments {
             }
             Command::Site(options) => {
                 site::command(&project, &options.output.unwrap_or_else(|| project.results("site")))
+            }
+            Command::Validate(Validate { machines: Some(machines), .. }) => {
+                print!("{}", validation::rigs::coverage(&machines)?);
+                Ok(())
             }
             Command::Validate(options) => {
                 let known = options.recordings.iter().map(|text| validation::recordings::Known::parse(text));

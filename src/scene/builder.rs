@@ -71,14 +71,14 @@ impl Scene {
 
 impl Bearing {
     /// A ball bearing of steel: `count` balls of a diameter (m) on a pitch diameter (m). Conformities 0.52, radial
-    /// clearance 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all of them assumed, usual
-    /// values.
+    /// clearance 5 µm, Young's modulus 207 GPa, Poisson's ratio 0.3, density 7800 kg/m³: all usual values, assumed.
     pub fn steel_balls(count: usize, element_diameter: f64, pitch_diameter: f64) -> Self {
         Self {
             element: RollingElement::Ball,
             element_count: count,
             element_diameter,
             diameter_offsets: Vec::new(),
+            drawn_diameters: None,
             pitch_diameter,
             conformity_inner: 0.52,
             conformity_outer: 0.52,

@@ -17,7 +17,7 @@ mod sensor;
 mod surfaces;
 
 pub use bearing::{
-    Bearing, Crown, DegreesOfFreedom, ElementInertia, Gyroscopic, Roller, RollerProfile, RollingElement,
+    Bearing, Crown, DegreesOfFreedom, DrawnDiameters, ElementInertia, Gyroscopic, Roller, RollerProfile, RollingElement,
 };
 pub use builder::SceneBuilder;
 pub use cage::{Cage, CageIrregularity};

@@ -17,7 +17,7 @@ use crate::numerics::checksum::checksum;
 
 const MARK: &[u8; 8] = b"BRNL-MDL";
 /// Changes with every field of a [`Scene`] and of what it consists of.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// A model file that does not give a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -86,7 +86,8 @@ mod tests {
     use super::*;
     use crate::scene::{
         AxialSupport, Bearing, CageIrregularity, ContactEdge, ContactLaw, Damping, Defect, DefectOn, DefectShape,
-        DegreesOfFreedom, Film, Motion, Recorder, RecorderFilter, Sensor, SensorMode, Waviness, WavyBody,
+        DegreesOfFreedom, DrawnDiameters, Film, Motion, Recorder, RecorderFilter, Sensor, SensorMode, Waviness,
+        WavyBody,
     };
 
     const TEXT: &str = "name = \"everything\"";
@@ -127,7 +128,7 @@ mod tests {
         balls.recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
         let mut rollers = Scene::er16k();
         rollers.bearing = Bearing::steel_rollers(13, 7.5e-3, 9e-3, 38.5e-3);
-        rollers.bearing.diameter_offsets = Bearing::drawn_diameter_offsets(13, 1e-6 / 3.0, u64::MAX);
+        rollers.bearing.draw_diameters(DrawnDiameters { rms: 1e-6 / 3.0, seed: u64::MAX });
         rollers.waviness.push(Waviness { on: WavyBody::Outer, order: 7, amplitude: 1e-6 / 3.0, crest: -0.0 });
         (rollers.shaft.motion, rollers.shaft.load) = (Motion::Host, [0.0; 2]);
         [balls, rollers]
@@ -151,7 +152,7 @@ mod tests {
     #[test]
     fn a_layout_belongs_to_its_version() {
         let sums = everything().map(|scene| checksum(&encode(&scene, TEXT).unwrap()));
-        assert_eq!((VERSION, sums), (5, [8_964_155_534_092_747_642, 10_940_988_503_852_610_955]));
+        assert_eq!((VERSION, sums), (6, [13_041_789_728_452_707_667, 16_156_697_093_850_457_579]));
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod half_space;
 mod laws;
 mod same_bits;
 
-use crate::case::{Case, Motion, On};
+use crate::case::{Case, Motion};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::Bearing;
 use crate::oracle::signals::{Kind, signals};
@@ -263,11 +263,7 @@ fn turning_the_cage_by_a_spacing_renames_the_elements() {
         let case = scene(draw, true);
         let (count, spacing) = (case.count, 360.0 / case.count as f64);
         let mut turned = Case { cage_deg: case.cage_deg + spacing, ..case.clone() };
-        for defect in &mut turned.defects {
-            if let On::Element { element, .. } = &mut defect.on {
-                *element = (*element + count - 1) % count;
-            }
-        }
+        turned.put_elements(|j| (j + count - 1) % count);
         let own = signals(&turned);
         compare(&case, &turned, |names, sample| {
             // Element j is where j + 1 was.

@@ -113,7 +113,9 @@ fn the_page_holds_the_section() {
 #[test]
 fn random_rigid_paths_are_the_envelope() {
     for_seeds(60, |_, draw| {
-        let (_, case) = random(draw);
+        let (_, mut case) = random(draw);
+        // They come on top of a path.
+        case.waves.clear();
         let oracle = Bearing::new(&case);
         if oracle.all_surfaces().next().is_none() {
             return Ok(());

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::support::shipped;
-use brinell::scene::{ContactLaw, DefectOn, DefectShape, Recorder, RecorderFilter, Scene};
+use brinell::scene::{ContactLaw, DefectOn, DefectShape, DrawnDiameters, Recorder, RecorderFilter, Scene};
 use brinell::simulation::interface::table::Kind;
 use brinell::simulation::{Simulation, SimulationError};
 
@@ -115,6 +115,26 @@ fn a_cage_with_another_seed_is_one_that_was_drawn_with_it() {
     assert!(large.reference("cage.seed").is_err());
     let error = Simulation::new(with_seed("5"), None).unwrap().set_integers(&[seed], &[-1]).unwrap_err();
     assert_eq!(error.to_string(), "variable cage.seed: -1 is outside 0 … 2.147483647e9");
+}
+
+#[test]
+fn elements_with_another_seed_are_those_that_were_drawn_with_it() {
+    let with_seed = |seed: u64| {
+        let mut scene = shipped("6205-healthy");
+        scene.bearing.draw_diameters(DrawnDiameters { rms: 0.3e-6, seed });
+        Simulation::new(scene, None).unwrap()
+    };
+    let mut set = with_seed(5);
+    let seed = set.reference("bearing.element_diameter_seed").unwrap();
+    // Behind all others, which keep their references.
+    assert_eq!(seed as usize, set.table().len() - 1);
+    set.set_integers(&[seed], &[77]).unwrap();
+    let (set, drawn) = (moved(set), moved(with_seed(77)));
+    assert_eq!(set, drawn);
+    assert_ne!(set, moved(with_seed(5)));
+    assert!(with_seed(1 << 31).reference("bearing.element_diameter_seed").is_err());
+    let equal = Simulation::new(shipped("6205-healthy"), None).unwrap();
+    assert!(equal.reference("bearing.element_diameter_seed").is_err());
 }
 
 #[test]

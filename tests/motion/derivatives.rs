@@ -3,8 +3,8 @@
 
 use crate::support::{map_of, profiles_of, shipped, shipped_as_it_is};
 use brinell::scene::{
-    Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, Ring, Roller, RollerProfile, RollingElement, Scene,
-    Waviness, WavyBody,
+    Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, DrawnDiameters, Ring, Roller, RollerProfile,
+    RollingElement, Scene, Waviness, WavyBody,
 };
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
@@ -31,7 +31,7 @@ const SCENES: [&str; 13] = [
 /// Each of them, and one whose elements are unequal and whose raceways are wavy.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let mut uneven = shipped("6205-inner-5deg");
-    uneven.bearing.diameter_offsets = Bearing::drawn_diameter_offsets(uneven.bearing.element_count, 0.5e-6, 3);
+    uneven.bearing.draw_diameters(DrawnDiameters { rms: 0.5e-6, seed: 3 });
     let waves = |on, order, crest| Waviness { on, order, amplitude: 0.5e-6, crest };
     uneven.waviness = vec![waves(WavyBody::Inner, 7, 0.2), waves(WavyBody::Outer, 10, 1.0)];
     SCENES.into_iter().map(|name| (name, shipped(name))).chain([("uneven", uneven)]).collect()

@@ -8,7 +8,7 @@ use crate::support::loaded::{TURNS, lines, loaded, preloaded, start};
 use brinell::contact::near_defect::LoveSolvers;
 use brinell::dynamics::parameters::SMOOTH;
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{Bearing, ContactLaw, Damping, Defect, ElementInertia, Ring, Scene};
+use brinell::scene::{Bearing, ContactLaw, Damping, Defect, DrawnDiameters, ElementInertia, Ring, Scene};
 use brinell::simulation::setup::build_model;
 use brinell::surface::Surface;
 use std::f64::consts::FRAC_PI_2;
@@ -104,9 +104,14 @@ fn rollers_of_unequal_size_keep_their_constants_and_share_the_load_by_their_diam
 
 #[test]
 fn drawn_diameters_are_the_seeds_and_have_their_root_mean_square() {
-    let drawn = Bearing::drawn_diameter_offsets(9, 0.3e-6, 7);
-    assert_eq!(drawn, Bearing::drawn_diameter_offsets(9, 0.3e-6, 7));
-    assert_ne!(drawn, Bearing::drawn_diameter_offsets(9, 0.3e-6, 8));
+    let drawn = |seed| {
+        let mut bearing = Bearing::steel_balls(9, 7.94e-3, 39.04e-3);
+        bearing.draw_diameters(DrawnDiameters { rms: 0.3e-6, seed });
+        bearing.diameter_offsets
+    };
+    assert_eq!(drawn(7), drawn(7));
+    assert_ne!(drawn(7), drawn(8));
+    let drawn = drawn(7);
     let rms = (drawn.iter().map(|x| x * x).sum::<f64>() / 9.0).sqrt();
     assert!((rms / 0.3e-6 - 1.0).abs() < 1e-12 && drawn.iter().sum::<f64>().abs() < 1e-20);
     // Not those of the cage's spacing.

@@ -11,7 +11,7 @@ use anyhow::Result;
 use brinell_analysis::recording::{Recording, SizingError};
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::{Fault, Raceway};
-use brinell_analysis::statistics::Random;
+use brinell_analysis::statistics::{Random, median};
 use rayon::prelude::*;
 
 use super::Values;
@@ -54,6 +54,41 @@ fn table(raceway: Raceway, lengths: &[f64]) -> Result<String> {
     Ok(table)
 }
 
+/// Coverage and width together, of machines with these numbers, as Markdown: of all, and of those whose signal is 20 dB
+/// and more above the noise.
+pub fn coverage(machines: &Range<u64>) -> Result<String> {
+    let mut table = String::from(
+        "| spall | kind right / wrong / not named | lengths | hold | ± (median) | off 15 % | from 20 dB on: lengths \
+         | hold | ± (median) |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    let outer = LENGTHS.iter().map(|&length| (Raceway::Outer, length));
+    for (raceway, length) in outer.chain(INNER.iter().map(|&length| (Raceway::Inner, length))) {
+        let found = sized(raceway, length, machines.clone())?;
+        let of = if raceway == Raceway::Inner { "inside" } else { "outside" };
+        let spall = if length == 0.0 { "healthy".to_owned() } else { format!("{length:.1}° {of}") };
+        let counted = |of: &dyn Fn(&Found) -> bool| found.iter().filter(|found| of(found)).count();
+        let right = counted(&|found| found.raceway == Some(raceway));
+        let other = counted(&|found| found.other_kind || found.raceway.is_some_and(|named| named != raceway));
+        let off = counted(&|found| found.length.is_some() && found.error(length) > RIGHT * length);
+        let held = |least: f64| {
+            let given: Vec<&Found> = found.iter().filter(|f| f.length.is_some() && f.noise_db >= least).collect();
+            let held = given.iter().filter(|found| found.error(length) <= found.interval).count();
+            let widths: Vec<f64> = given.iter().filter_map(|f| Some(100.0 * f.interval / f.length?)).collect();
+            let width = if widths.is_empty() { "–".to_owned() } else { format!("{:.1} %", median(&widths)) };
+            (given.len(), held, width)
+        };
+        let ((given, all, width), (quiet, of_quiet, narrow)) = (held(0.0), held(20.0));
+        let (faulty, unnamed) = (length > 0.0, found.len() - right - other);
+        let (right, other) = if faulty { (right, other) } else { (0, right + other) };
+        writeln!(
+            table,
+            "| {spall} | {right} / {other} / {unnamed} | {given} | {all} | {width} | {off} | {quiet} | {of_quiet} \
+             | {narrow} |"
+        )?;
+    }
+    Ok(table)
+}
+
 /// What sizing gives.
 struct Found {
     /// Length and half its 95 % interval (degrees).
@@ -61,6 +96,10 @@ struct Found {
     interval: f64,
     /// Of which raceway.
     raceway: Option<Raceway>,
+    /// Whether it is said to be an element's.
+    other_kind: bool,
+    /// Signal's power above the noise's (dB).
+    noise_db: f64,
 }
 
 impl Found {
@@ -108,11 +147,12 @@ fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
                 Fault::Inner => Some(Raceway::Inner),
                 _ => None,
             };
-            Ok(Found { length: report.length_deg, interval, raceway })
+            let (length, other_kind) = (report.length_deg, report.fault == Fault::Element);
+            Ok(Found { length, interval, raceway, other_kind, noise_db: rig.noise_db })
         }
         // Too few samples per passage at this rate and speed: no length either.
         Err(SizingError::TooCoarse { .. } | SizingError::TooShort { .. }) => {
-            Ok(Found { length: None, interval: 0.0, raceway: None })
+            Ok(Found { length: None, interval: 0.0, raceway: None, other_kind: false, noise_db: rig.noise_db })
         }
         Err(other) => Err(other.into()),
     }

@@ -44,6 +44,14 @@ pub(in crate::dynamics) struct Linearized<T: Scalar = f64> {
     pub(in crate::dynamics) distance: T,
 }
 
+impl Linearized {
+    /// The smaller approach (m) of the contacts that touch; infinite where none does.
+    pub(in crate::dynamics) fn lightest_approach(&self) -> f64 {
+        let touching = [self.inner.approach, self.outer.approach].into_iter().filter(|&approach| approach > 0.0);
+        touching.fold(f64::INFINITY, f64::min)
+    }
+}
+
 /// A contact's force on the element and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {

@@ -35,6 +35,9 @@ use crate::numerics::plane::Vector;
 /// Change of a path below which Newton's next step is exact to rounding (m): what is left is 0.25 (this)²/δ, with the
 /// lightest contact's δ of 1e-9 m below 1e-21 m.
 const SETTLED: f64 = 1e-15;
+/// The same in shares of the lightest contact's δ: where a contact is left with less force than it has at 1e-14 m, as
+/// that of an element without weight, Newton's steps are each a third of the one before.
+const SETTLED_SHARE: f64 = 0.1;
 /// First step of a search that nothing brackets (m); each next one is twice as long.
 const FIRST_STRIDE: f64 = 1e-8;
 /// Most evaluations of the contacts: doubling from the first stride to a metre, and halving back.
@@ -141,7 +144,8 @@ impl Model {
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         let mut slope = 0.0;
         for evaluations in 1..MOST_EVALUATIONS {
-            let push = self.radial_push(&self.linearized_at(cells, &at.on_path(u, 0.0).searched(), shortcuts));
+            let element = self.linearized_at(cells, &at.on_path(u, 0.0).searched(), shortcuts);
+            let push = self.radial_push(&element);
             slope = push.slope;
             if push.force == 0.0 && slope == 0.0 {
                 // Nothing pushes and nothing touches.
@@ -149,7 +153,7 @@ impl Model {
                 return FoundPath { path, slope, evaluations };
             }
             let newton = u - push.force / slope;
-            if (newton - u).abs() <= SETTLED {
+            if (newton - u).abs() <= SETTLED.min(SETTLED_SHARE * element.lightest_approach()) {
                 return FoundPath { path: newton, slope, evaluations };
             }
             let Some(next) = search.next(u, push.force, newton) else {

@@ -23,6 +23,8 @@ pub struct Bearing {
     pub element_diameter: f64,
     /// Diameter of each element beyond that (m); none where elements are equal.
     pub diameter_offsets: Vec<f64>,
+    /// How these were drawn; `None` of given ones and of equal elements.
+    pub drawn_diameters: Option<DrawnDiameters>,
     /// Pitch diameter D_pw (m).
     pub pitch_diameter: f64,
     /// Groove conformity of the inner ring f_i = r_gi/D_w, above 0.5; infinite with rollers, whose raceways are
@@ -65,6 +67,15 @@ pub struct Bearing {
     pub element_inertia: ElementInertia,
 }
 
+/// How diameters of unequal elements are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DrawnDiameters {
+    /// Root mean square of what they are beyond the nominal one (m).
+    pub rms: f64,
+    /// Of the random numbers.
+    pub seed: u64,
+}
+
 impl Bearing {
     /// Radius of an element (m).
     pub fn element_radius(&self) -> f64 {
@@ -93,6 +104,7 @@ impl Bearing {
         Self {
             element_diameter: diameter,
             diameter_offsets: Vec::new(),
+            drawn_diameters: None,
             conformity_inner: self.conformity_inner * conformity,
             conformity_outer: self.conformity_outer * conformity,
             radial_clearance: self.radial_clearance - by,
@@ -101,10 +113,11 @@ impl Bearing {
         }
     }
 
-    /// Diameters beyond the nominal one (m) of `count` elements drawn with a seed, of this root mean square (m) and of
-    /// sum 0.
-    pub fn drawn_diameter_offsets(count: usize, rms: f64, seed: u64) -> Vec<f64> {
-        centred_draw(count, rms, seed, DIAMETERS)
+    /// Takes diameters beyond the nominal one that are drawn: of sum 0, none where their root mean square is 0.
+    pub fn draw_diameters(&mut self, drawn: DrawnDiameters) {
+        let unequal = drawn.rms != 0.0;
+        let offsets = unequal.then(|| centred_draw(self.element_count, drawn.rms, drawn.seed, DIAMETERS));
+        (self.diameter_offsets, self.drawn_diameters) = (offsets.unwrap_or_default(), unequal.then_some(drawn));
     }
 
     /// The roller; `None` of a ball bearing.

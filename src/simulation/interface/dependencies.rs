@@ -164,6 +164,7 @@ pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
         | Parameter::SpallLength(_)
         | Parameter::SpallDepth(_)
         | Parameter::CageSeed
+        | Parameter::DiameterSeed
         | Parameter::FilmViscosity
         | Parameter::RingStiffness(_) => true,
     }

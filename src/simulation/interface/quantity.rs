@@ -124,6 +124,7 @@ pub enum Parameter {
     FilmViscosity,
     SensorResonance(usize),
     RecorderRate,
+    DiameterSeed,
 }
 
 impl Quantity {

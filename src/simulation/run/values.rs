@@ -103,7 +103,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets integers (enumerations and `cage.seed`); all or none; before `initialize`.
+    /// Sets integers (enumerations and seeds); all or none; before `initialize`.
     pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), VariableError> {
         as_many(references.len(), values.len())?;
         let state = &mut self.run.state;

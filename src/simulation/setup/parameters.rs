@@ -1,6 +1,6 @@
 //! Parameters that a host may set: their start values, and the scene with the values set.
 
-use crate::scene::{ContactLaw, Damping, DefectShape, RepeatedInputs, Ring, Scene};
+use crate::scene::{ContactLaw, Damping, DefectShape, DrawnDiameters, RepeatedInputs, Ring, Scene};
 use crate::simulation::SimulationError;
 use crate::simulation::interface::table::{Kind, Variable};
 use crate::simulation::interface::{Parameter, Quantity, RingName};
@@ -72,6 +72,11 @@ pub(in crate::simulation) fn with_parameters(
                 // Numbers below 0 were refused when they were set.
                 let seed = integer.unsigned_abs().into();
                 changed.cage.irregularity.iter_mut().for_each(|cage| cage.draw_with(seed));
+            }
+            Parameter::DiameterSeed => {
+                let seed = integer.unsigned_abs().into();
+                let drawn = changed.bearing.drawn_diameters.map(|drawn| DrawnDiameters { seed, ..drawn });
+                drawn.into_iter().for_each(|drawn| changed.bearing.draw_diameters(drawn));
             }
             Parameter::FilmViscosity => changed.film.iter_mut().for_each(|film| film.viscosity = value),
             Parameter::SensorResonance(index) => changed.sensors[index].set_resonance(value),

@@ -165,7 +165,7 @@ impl Search<'_> {
         let carried = self.acting.accelerations[1];
         for (j, along) in along.iter_mut().enumerate() {
             let (sin, cos) = (self.outside.turns[0][0] + TAU * j as f64 / self.bearing.count as f64).sin_cos();
-            *along = self.bearing.mass * (rates[ELEMENTS + 2 * j + 1] + carried[0] * cos + carried[1] * sin);
+            *along = self.bearing.own(j).mass * (rates[ELEMENTS + 2 * j + 1] + carried[0] * cos + carried[1] * sin);
         }
     }
 }

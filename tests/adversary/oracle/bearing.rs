@@ -1,12 +1,12 @@
 //! The numbers of a bearing, and what each contact and each ring is by them.
 
-use crate::case::{Case, Damping, Grooves, Mode, Motion, On, Ring};
+use crate::case::{Case, Damping, Grooves, Mode, Motion, Ring};
 use crate::growth::Growth;
-use crate::hertz;
 use crate::instant::{Contact, ELEMENTS, Outside, Seat};
 use crate::oil::{Oil, Resistance};
 use crate::surface::Surfaces;
 use crate::turning::quadratic;
+use crate::uneven::{AllWaves, Bodies, Own};
 use std::f64::consts::{PI, TAU};
 
 /// A bearing by its numbers in SI units.
@@ -19,6 +19,9 @@ pub struct Bearing {
     pub oil: Option<Oil>,
     pub compliance: f64,
     pub mass: f64,
+    /// What elements have of their own: one where all are equal.
+    pub own: Vec<Own>,
+    pub waves: AllWaves,
     pub gravity: [f64; 2],
     pub damping: Damping,
     /// Speeds of cage, shaft, housing and elements' spin per speed of the shaft and of the housing.
@@ -29,9 +32,9 @@ pub struct Bearing {
     pub speeds: [f64; 2],
     /// What contacts may meet.
     pub surfaces: Surfaces,
-    /// Whether the case has a defect, and whether the inner ring has one.
+    /// Whether the case has a defect, and whether the inner ring has one or waves.
     pub defective: bool,
-    pub inner_defective: bool,
+    pub inner_marked: bool,
     /// Whether the outer ring turns.
     pub turns: bool,
     pub rings: [Ring; 2],
@@ -49,28 +52,21 @@ impl Bearing {
             Grooves::Equal(groove) => (groove / (2.0 * case.diameter_mm), groove / (2.0 * case.diameter_mm)),
             Grooves::Each(inner, outer) => (inner, outer),
         };
-        let computed = [
-            hertz::stiffness([1.0 / r + 1.0 / r_i, 1.0 / r - 1.0 / (f_i * d)], modulus),
-            hertz::stiffness([1.0 / r - 1.0 / r_o, 1.0 / r - 1.0 / (f_o * d)], modulus),
-        ];
         let gamma = d / pitch;
         let (cage, spin) = (0.5 * (1.0 - case.slip), (1.0 - case.spin_slip) / (2.0 * gamma));
-        let volume = match case.roller {
-            Some(roller) => PI * r * r * roller.length_mm * 1e-3,
-            None => 4.0 / 3.0 * PI * r * r * r,
-        };
-        let mass = case.mass_g.map_or_else(|| volume * case.density.unwrap(), |mass| mass * 1e-3);
-        let points = [0, 1].map(|side| Growth::Point(case.hertz[side].unwrap_or(computed[side])));
-        let growth = Growth::of_roller(case).map_or(points, |line| [line.clone(), line]);
+        let bodies = Bodies { raceways: [r_i, r_o], grooves: [f_i * d, f_o * d], modulus };
+        let (nominal, own) = bodies.elements(case);
         Self {
             count: case.count,
             r,
             rho_0: r_o - r,
             clearance,
-            growth,
+            growth: nominal.growth,
+            own,
+            waves: AllWaves::of(case, case.cage_deg * PI / 180.0),
             oil: Oil::new(case, [r, r_i, r_o], [f_i, f_o], modulus),
             compliance: case.compliance,
-            mass,
+            mass: nominal.mass,
             gravity: case.gravity,
             damping: case.damping,
             ratios: [
@@ -83,12 +79,23 @@ impl Bearing {
             speeds: [case.speed_hz, case.housing_hz.unwrap_or(0.0)].map(|hz| TAU * hz),
             surfaces: Surfaces::default(),
             defective: !case.defects.is_empty(),
-            inner_defective: case.defects.iter().any(|defect| defect.on == On::Inner),
+            inner_marked: case.marks_inner_ring(),
             turns: case.housing_hz.is_some(),
             rings: case.rings,
             sensor: case.sensor,
             modes: if case.sensor.is_some() { case.modes.clone() } else { Vec::new() },
         }
+    }
+
+    /// What of element `j` is its own.
+    pub fn own(&self, j: usize) -> &Own {
+        &self.own[j % self.own.len()]
+    }
+
+    /// Where element `j` touches the smooth outer raceway (m from the outer ring's centre), and its clearance (m).
+    pub fn place(&self, j: usize) -> [f64; 2] {
+        let larger = self.own(j).larger;
+        [self.rho_0 - 0.5 * larger, self.clearance - larger]
     }
 
     /// How many numbers a state has.
@@ -114,9 +121,9 @@ impl Bearing {
         [0, 1, 2, 3].map(|which| [angles[which], sum(which, 0), sum(which, 1)])
     }
 
-    /// The force of a contact, beside a film of this thickness (m): with side 1, that of the outer raceway in series
-    /// with its compliance.
-    pub(crate) fn contact(&self, side: usize, film: f64, approach: f64, rate: f64) -> Contact {
+    /// The force of a contact of element `j`, beside a film of this thickness (m): with side 1, that of the outer
+    /// raceway in series with its compliance.
+    pub(crate) fn contact(&self, j: usize, side: usize, film: f64, [approach, rate]: [f64; 2]) -> Contact {
         let oil = self.oil.as_ref().map_or(Resistance::default(), |oil| oil.resistance(side, film, approach, rate));
         let film = Contact {
             force: oil.force,
@@ -129,7 +136,7 @@ impl Bearing {
         if approach <= 0.0 {
             return film;
         }
-        let growth = &self.growth[side];
+        let growth = &self.own(j).growth[side];
         let (mut own, mut yields) = (approach, 1.0);
         if side == 1 && self.compliance > 0.0 {
             // Newton from above on a convex function: δ + c Q(δ) = Δ.
@@ -175,7 +182,7 @@ impl Bearing {
         let angle = angle + TAU * j as f64 / self.count as f64;
         let (sin, cos) = angle.sin_cos();
         let (u, u_rate) = (y[ELEMENTS + 2 * j], y[ELEMENTS + 2 * j + 1]);
-        let rho = self.rho_0 + u;
+        let rho = self.place(j)[0] + u;
         let q = [housing[0][0] - shaft[0][0] + rho * cos, housing[1][0] - shaft[1][0] + rho * sin];
         let q_rate = [
             housing[0][1] - shaft[0][1] + u_rate * cos - rho * omega * sin,

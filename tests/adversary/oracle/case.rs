@@ -6,7 +6,7 @@ mod parts;
 pub(crate) mod shape;
 mod transform;
 
-pub use parts::{Film, Mode, Roller};
+pub use parts::{Film, Mode, Roller, Wave};
 pub use transform::Factors;
 
 use std::fmt::Write;
@@ -16,6 +16,8 @@ pub struct Case {
     pub gravity: [f64; 2],
     pub count: usize,
     pub diameter_mm: f64,
+    /// Diameters of elements beyond that; none of equal ones.
+    pub larger_um: Vec<f64>,
     pub pitch_mm: f64,
     pub grooves: Grooves,
     pub clearance_um: f64,
@@ -39,6 +41,7 @@ pub struct Case {
     /// Initial angles of shaft and housing.
     pub rings_deg: [f64; 2],
     pub defects: Vec<Defect>,
+    pub waves: Vec<Wave>,
     /// Shaft, housing.
     pub rings: [Ring; 2],
     pub speed_hz: f64,
@@ -170,6 +173,7 @@ impl Case {
             gravity: [0.0; 2],
             count: 9,
             diameter_mm: 7.94,
+            larger_um: Vec::new(),
             pitch_mm: 39.32,
             grooves: Grooves::Equal(8.19),
             clearance_um: 0.0,
@@ -188,6 +192,7 @@ impl Case {
             cage_deg: 0.0,
             rings_deg: [0.0; 2],
             defects: Vec::new(),
+            waves: Vec::new(),
             rings: [Ring::FIXED; 2],
             speed_hz: 0.0,
             housing_hz: None,
@@ -230,6 +235,9 @@ impl Case {
         if let Some(roller) = &self.roller {
             text.push_str(&roller.toml());
         }
+        if !self.larger_um.is_empty() {
+            writeln!(text, "element_diameter_offsets_um = {:?}", self.larger_um).unwrap();
+        }
         writeln!(text, "element_count = {}\n[contact]\nlaw = \"{}\"", self.count, self.law).unwrap();
         if let Some((force, cells, accuracy)) = self.grid {
             writeln!(text, "largest_force_n = {force:?}\ncells = {cells:?}\nmap_accuracy = {accuracy:?}").unwrap();
@@ -244,6 +252,7 @@ impl Case {
         }
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
         text.push_str(&shape::tables(&self.defects));
+        self.waves.iter().for_each(|wave| text.push_str(&wave.toml()));
         self.write_rings(&mut text);
         writeln!(text, "[solver]\ntolerance = {:?}", self.tolerance).unwrap();
         text
@@ -287,6 +296,12 @@ impl Case {
         elements.sort_unstable();
         elements.dedup();
         elements
+    }
+
+    /// Whether the inner ring has a defect or waves.
+    pub fn marks_inner_ring(&self) -> bool {
+        let of_waves = self.waves.iter().map(|wave| wave.on);
+        self.defects.iter().map(|defect| defect.on).chain(of_waves).any(|on| on == On::Inner)
     }
 
     /// Length of the whole run (s).

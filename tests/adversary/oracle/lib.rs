@@ -32,6 +32,7 @@ pub mod spatial;
 pub mod surface;
 pub mod surfaces;
 pub mod turning;
+mod uneven;
 
 pub use bearing::Bearing;
 pub use instant::{Acting, Contact, ELEMENTS, Outside, SENSOR, Seat};

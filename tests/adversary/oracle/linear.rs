@@ -21,7 +21,7 @@ impl Bearing {
             |name: String, mass: f64, position: usize, velocity: usize| Freedom { name, mass, position, velocity };
         let element = |j: usize| {
             let position = ELEMENTS + 2 * j;
-            freedom(format!("element[{}].path", j + 1), self.mass, position, position + 1)
+            freedom(format!("element[{}].path", j + 1), self.own(j).mass, position, position + 1)
         };
         let mut found: Vec<Freedom> = (0..self.count).map(element).collect();
         for (which, name) in ["shaft", "housing"].into_iter().enumerate() {

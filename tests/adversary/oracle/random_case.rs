@@ -9,6 +9,7 @@ mod parts;
 mod scale;
 pub(crate) mod shape;
 pub(crate) mod space;
+mod uneven;
 
 pub use shape::bowl;
 
@@ -31,6 +32,7 @@ pub struct Kind {
     pub speed: &'static str,
     pub outer_ring: &'static str,
     pub elements: &'static str,
+    pub bodies: &'static str,
 }
 
 /// Element contacts' time steps that an oracle's run may take.
@@ -79,6 +81,9 @@ fn scene(draw: &mut Draw, space: Space, mut parts_draw: Option<Draw>) -> (Kind, 
             more(draw, space, &scale, &mut case);
             kind.on = space::bodies_name(&case.defects);
         }
+    }
+    if let Some(parts_draw) = &parts_draw {
+        kind.bodies = uneven::add(&mut parts_draw.independent(), &mut case, &scale);
     }
     case.cage_deg = draw.between(-180.0, 180.0);
     let way = space.way(draw, &mut case);
@@ -261,6 +266,8 @@ fn motion_name(case: &Case) -> &'static str {
 /// Largest angular frequency or rate of decay (1/s) of a case under its loads.
 pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
     let bearing = Bearing::smooth(case);
+    let turns = case.steps.iter().filter_map(|step| step.host).flat_map(|host| host.speeds.map(|[speed, _]| speed));
+    let speed = turns.chain(bearing.speeds).fold(0.0f64, |most, speed| most.max(speed.abs()));
     let (mut stiff, mut damped) = (0.0, 0.0);
     for side in 0..2 {
         let [force, k] = bearing.growth[side].force(approach[side].max(0.0));
@@ -272,7 +279,7 @@ pub fn fastest(case: &Case, approach: [f64; 2]) -> f64 {
         damped += bearing.oil.as_ref().map_or(0.0, |oil| oil.strongest(side));
     }
     let loaded = (case.count as f64 / 3.0).max(1.0);
-    let mut rate = (stiff / bearing.mass).sqrt() + damped / bearing.mass;
+    let mut rate = ((stiff / bearing.mass).sqrt() + damped / bearing.mass).max(bearing.ripple(2.0 * speed));
     for ring in case.rings.iter().filter(|ring| ring.motion == Motion::Internal) {
         let own = ((ring.stiffness + loaded * stiff) / ring.mass).sqrt() + (ring.damping + loaded * damped) / ring.mass;
         rate = f64::max(rate, own);

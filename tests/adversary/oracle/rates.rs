@@ -6,13 +6,13 @@ use crate::surface::Stretches;
 use crate::turning::{SHAFT, SPIN, Turns, quadratic};
 use std::f64::consts::TAU;
 
-/// A contact, its force on the element (x, y), the torque of that on the body with the defect, and what that turns
-/// with.
+/// A contact, its force on the element (x, y), the torque of that on the body with the defect or the waves, and what
+/// that turns with.
 struct Push {
     contact: Contact,
     force: [f64; 2],
     torque: f64,
-    frame: Option<usize>,
+    frame: usize,
 }
 
 impl Bearing {
@@ -22,20 +22,26 @@ impl Bearing {
         let n = [seat.q[0] / length, seat.q[1] / length];
         let opening = n[0] * seat.q_rate[0] + n[1] * seat.q_rate[1];
         // Paths count from the film outside; both films take from the clearance.
-        let smooth = [self.rho_0 - self.clearance + films[0] + films[1] - length, seat.u];
+        let [place, clearance] = self.place(j);
+        let smooth = [place - clearance + films[0] + films[1] - length, seat.u];
         let (apart, rates, outwards) = ([length, seat.rho], [-opening, seat.u_rate], [n, seat.e_r]);
         [0, 1].map(|side| {
             let over = self.over(side, j, seat, turns, stretches);
             let (path, slope, past) = over.as_ref().map_or((0.0, 0.0, 0.0), |over| (over.path, over.slope, over.rate));
-            let mut contact = self.contact(side, films[side], smooth[side] - path, rates[side] - slope * past);
+            let wave = self.wave(side, j, seat, turns);
+            let approach = [smooth[side] - path - wave.path, rates[side] - slope * past - wave.slope * wave.rate];
+            let mut contact = self.contact(j, side, films[side], approach);
             contact.over = over.as_ref().map(|over| over.which);
             let kappa = if slope == 0.0 { 0.0 } else { (slope / apart[side]).atan() };
             let away = if side == 0 { contact.force } else { -contact.force } * kappa.cos();
-            let ([x, y], around) = (outwards[side], contact.force * kappa.sin());
-            // The force passes through the centre of the body without the defect.
+            let leaning = kappa.sin() + wave.slope / apart[side];
+            let ([x, y], around) = (outwards[side], contact.force * leaning);
+            // The force passes through the centre of the body without the defect or the waves.
             let torque = -around * apart[side];
             let force = [away * x - around * y, away * y + around * x];
-            Push { contact, force, torque, frame: over.map(|over| over.surface.frame) }
+            // All of it is the normal force of a wave's flank.
+            contact.force *= kappa.cos().hypot(leaning);
+            Push { contact, force, torque, frame: over.map_or(wave.frame, |over| over.surface.frame) }
         })
     }
 
@@ -61,21 +67,22 @@ impl Bearing {
             let seat = self.seat(j, turns[0], &motions, y);
             let ([cos, sin], rho) = (seat.e_r, seat.rho);
             let pushes = self.pushes(j, &seat, &turns, self.films(&turns), &stretches[j]);
-            let mut net = [self.mass * self.gravity[0], self.mass * self.gravity[1]];
+            let mass = self.own(j).mass;
+            let mut net = [mass * self.gravity[0], mass * self.gravity[1]];
             for (side, push) in pushes.iter().enumerate() {
                 for a in 0..2 {
                     net[a] += push.force[a];
                     acting.rings[side][a] -= push.force[a];
                 }
                 match push.frame {
-                    Some(SPIN) => acting.torque += push.torque,
-                    Some(SHAFT) => acting.shaft_torque += push.torque,
+                    SPIN => acting.torque += push.torque,
+                    SHAFT => acting.shaft_torque += push.torque,
                     _ => {}
                 }
             }
-            along[j] = net[0] * cos + net[1] * sin + self.mass * rho * omega * omega;
+            along[j] = net[0] * cos + net[1] * sin + mass * rho * omega * omega;
             let around = net[1] * cos - net[0] * sin;
-            acting.torque += rho * (around - self.mass * (2.0 * seat.u_rate * omega + rho * alpha));
+            acting.torque += rho * (around - mass * (2.0 * seat.u_rate * omega + rho * alpha));
             acting.contacts.push(pushes.map(|push| push.contact));
         }
         self.ring_rates(outside, t, y, &motions, rates, acting);
@@ -83,8 +90,9 @@ impl Bearing {
         for j in 0..self.count {
             let (sin, cos) = (turns[0][0] + TAU * j as f64 / self.count as f64).sin_cos();
             rates[ELEMENTS + 2 * j] = y[ELEMENTS + 2 * j + 1];
-            rates[ELEMENTS + 2 * j + 1] = along[j] / self.mass - (a_o[0] * cos + a_o[1] * sin);
-            acting.torque -= (self.rho_0 + y[ELEMENTS + 2 * j]) * self.mass * (a_o[1] * cos - a_o[0] * sin);
+            let mass = self.own(j).mass;
+            rates[ELEMENTS + 2 * j + 1] = along[j] / mass - (a_o[0] * cos + a_o[1] * sin);
+            acting.torque -= (self.place(j)[0] + y[ELEMENTS + 2 * j]) * mass * (a_o[1] * cos - a_o[0] * sin);
         }
         let impulses = ELEMENTS + 2 * self.count;
         for i in 0..4 {

@@ -1,7 +1,7 @@
 //! What is compared: the oracle's signals under the names of the variables.
 
 use crate::bearing::Bearing;
-use crate::case::{Case, Motion, On};
+use crate::case::{Case, Motion};
 use crate::instant::{Acting, ELEMENTS, Outside};
 use std::f64::consts::TAU;
 
@@ -35,7 +35,7 @@ pub fn signals(case: &Case) -> Vec<(String, Kind)> {
             Motion::Fixed => {}
         }
     }
-    if case.defects.iter().any(|defect| defect.on == On::Inner) {
+    if case.marks_inner_ring() {
         found.push(("shaft.angle".to_owned(), Kind::Angle));
         found.push(("shaft.torque".to_owned(), Kind::Torque));
     }
@@ -75,7 +75,7 @@ pub(crate) fn values(bearing: &Bearing, y: &[f64], outside: &Outside, acting: &A
         }
     }
     let [cage, shaft, housing, spin] = outside.turns.map(|turn| turn[0]);
-    if bearing.inner_defective {
+    if bearing.inner_marked {
         found.extend([shaft, acting.shaft_torque]);
     }
     if bearing.turns {

@@ -21,6 +21,15 @@ pub struct Surfaces {
 /// Of an element's two contacts, the stretches of the ring's surface and of its own that they are in.
 pub type Stretches = [[usize; 2]; 2];
 
+/// P, dP/dψ and the speed past it (rad/s) of what a contact meets, and what that turns with.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rise {
+    pub path: f64,
+    pub slope: f64,
+    pub rate: f64,
+    pub frame: usize,
+}
+
 impl Surface {
     /// Angle from the defect's middle to a direction in which the bodies touch, within half a turn.
     pub fn psi(&self, direction: f64, turns: &Turns) -> f64 {

@@ -1,11 +1,12 @@
-//! Where defects are: on which body, how it turns, and which of its parts a contact is over.
+//! Where defects and waves are: on which body, how it turns, and which of its parts a contact is over.
 
 use crate::bearing::Bearing;
 use crate::case::{Case, Defect, On, Shape};
 use crate::envelope::{Envelope, Feature, Pair};
 use crate::instant::{Outside, Seat};
-use crate::surface::{Stretches, Surface, Surfaces};
+use crate::surface::{Rise, Stretches, Surface, Surfaces};
 use crate::turning::{HOUSING, SHAFT, SPIN, Turns, quadratic};
+use crate::uneven::Waves;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The surface that a contact is over, with its number and the stretch, and P, dP/dψ and the speed past it.
@@ -99,6 +100,24 @@ impl Bearing {
         let of = |on: Option<On>| self.past(on, self.speeds).abs() / TAU;
         let (count, element) = (self.count as f64, On::Element { element: 0, tilt_deg: 0.0 });
         [count * of(Some(On::Outer)), count * of(Some(On::Inner)), of(Some(element)), of(None)]
+    }
+}
+
+impl Bearing {
+    /// The waves under a contact of element `j`; no two bodies of one contact have any.
+    pub fn wave(&self, side: usize, j: usize, seat: &Seat, turns: &Turns) -> Rise {
+        let of_element = self.waves.elements.get(j).and_then(Option::as_ref).map(|sides| &sides[side]);
+        let waves = self.waves.rings[side].as_ref().or(of_element);
+        waves.map_or(Rise::default(), |waves| waves.rise(seat.turning(side, turns), turns))
+    }
+
+    /// The fastest that a wave goes by while a ring turns so fast against the other (rad/s).
+    pub fn ripple(&self, speed: f64) -> f64 {
+        let most = |waves: &Waves| waves.all.iter().fold(0.0f64, |most, [n, ..]| most.max(*n));
+        let rings = self.waves.rings.iter().flatten().map(most).fold(0.0, f64::max);
+        let elements = self.waves.elements.iter().flatten().map(|sides| most(&sides[0])).fold(0.0, f64::max);
+        // A ring passes the cage with the other's speed at most, and the elements spin faster.
+        speed * (rings + elements * (self.ratios[SPIN][0].abs() + self.ratios[SPIN][1].abs() + 1.0))
     }
 }
 

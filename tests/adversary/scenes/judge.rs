@@ -143,7 +143,7 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
             let mut y = run.y.clone();
             y[ELEMENTS + 2 * j] += by;
             let there = Run::new(bearing, y, case.steps[0].host.as_ref(), Pace::STANDING);
-            bearing.mass * (there.rates()[ELEMENTS + 2 * j + 1] + there.carried(j))
+            bearing.own(j).mass * (there.rates()[ELEMENTS + 2 * j + 1] + there.carried(j))
         };
         let [inwards, outwards] = [-1.0, 1.0].map(|by| left(by * rounding(bearing)));
         if inwards > 0.0 && outwards < 0.0 { inwards - outwards } else { 0.0 }
@@ -152,7 +152,7 @@ pub fn start(bearing: &Bearing, case: &Case, first: &[f64], names: &[(String, Ki
     let limit: f64 = limits.iter().sum();
     for j in 0..bearing.count {
         let limit = limits[j];
-        let along = bearing.mass * (run.rates()[ELEMENTS + 2 * j + 1] + run.carried(j));
+        let along = bearing.own(j).mass * (run.rates()[ELEMENTS + 2 * j + 1] + run.carried(j));
         if !(along.abs() <= limit) {
             let contacts = run.acting.contacts[j];
             return Err(format!(

@@ -12,8 +12,9 @@ use std::fmt::{self, Display, Formatter, Write};
 /// up.
 pub struct Entry {
     pub seed: u64,
-    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls.
-    names: [String; 6],
+    /// Body with the defect, its shape, motion of the rings, whether the outer one turns, speed, what rolls, and
+    /// whether that is of one size and all is round.
+    names: [String; 7],
     tolerance: f64,
     /// Whether the numbers of `stiffness`, its critical load and `modes` were compared.
     compared: Compared,
@@ -41,7 +42,8 @@ impl Entry {
         };
         Self {
             seed,
-            names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed, kind.elements].map(str::to_owned),
+            names: [kind.on, kind.defect, kind.motion, kind.outer_ring, kind.speed, kind.elements, kind.bodies]
+                .map(str::to_owned),
             tolerance,
             compared,
             came,
@@ -53,7 +55,7 @@ impl Entry {
         let mut fields = line.split('\t');
         let seed = fields.next()?.parse().ok()?;
         let mut name = || fields.next().map(str::to_owned);
-        let names = [name()?, name()?, name()?, name()?, name()?, name()?];
+        let names = [name()?, name()?, name()?, name()?, name()?, name()?, name()?];
         let tolerance = fields.next()?.parse().ok()?;
         let mut compared = [false; 3];
         compared.iter_mut().zip(fields.next()?.chars()).for_each(|(compared, digit)| *compared = digit == '1');
@@ -162,7 +164,7 @@ impl<'a> Tally<'a> {
         for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
             self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
         }
-        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5), ("elements", 5..6)] {
+        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5), ("elements", 5..7)] {
             *text +=
                 &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
             for which in columns {

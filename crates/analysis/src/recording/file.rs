@@ -73,6 +73,9 @@ impl Table {
             "mat" if hdf5::is(bytes) => hdf5::columns(bytes),
             "mat" => mat::columns(bytes),
             "wav" => return wav(bytes).map_err(refuse),
+            "tdms" => Err("TDMS is not read; in Python npTDMS converts a channel: numpy.save('a.npy', \
+                           nptdms.TdmsFile.read('a.tdms')['GROUP']['CHANNEL'][:])"
+                .to_owned()),
             _ => Err(format!("ending '{ending}': recordings are {READ}")),
         };
         let (names, columns) = columns.map_err(refuse)?;

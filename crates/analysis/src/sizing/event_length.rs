@@ -17,7 +17,7 @@
 //! the clearance by which the inner ring can follow: P(L/2) > δ + G_r. Shorter is unresolved. Where Q is unknown, s_u
 //! is the travel from the entry's onset to its extreme, an upper bound that holds in any case.
 
-use crate::sizing::measured::Measured;
+use crate::sizing::measured::{ENOUGH_RATE, Measured};
 use crate::sizing::passages::{Break, Classified, Entry, Impact, MODULATED, RESAMPLINGS, entry, events, fold};
 use crate::sizing::raceway;
 use crate::sizing::raceway::Raceway;
@@ -37,9 +37,6 @@ const JUMP_TIME: f64 = 1.2e-4;
 const CLEAR: f64 = 3.0;
 /// The same for an entry far before a single impact, where there is more to mistake.
 const CLEAR_FAR: f64 = 8.0;
-/// Sampling rate that events need (Hz): echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
-/// an echo is taken for the last impact, whatever the length that comes out.
-const ENOUGH_RATE: f64 = 24_000.0;
 /// Impacts that a spall makes at most: on its floor or where the element is caught, and at its end. With more, the
 /// last cannot be identified.
 const MOST_IMPACTS: usize = 2;

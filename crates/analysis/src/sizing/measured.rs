@@ -21,6 +21,9 @@ const FEWEST_PREDICTING: usize = 8;
 /// 0.02.
 const REVERSED: f64 = 1.05;
 
+/// Sampling rate (Hz) that events need: echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
+/// an echo is taken for the last impact, whatever the length that comes out.
+pub(super) const ENOUGH_RATE: f64 = 24_000.0;
 /// Parts into which a recording is cut at most: an eighth and more is lost with each.
 const MOST_CUTS: usize = 3;
 
@@ -148,7 +151,8 @@ impl Measured {
         let mut impacts = Spectrum::of(&impacts, rate);
         let reversed = reversed(recording.samples(), &mut impacts, order, rate, band);
         let mut high = impacts.squared_envelope(band);
-        let even = Passages::even(recording.samples().len(), rate / comb.frequency);
+        let most = if rate < ENOUGH_RATE { fold::MOST_WITHOUT_EVENTS } else { fold::MOST };
+        let even = Passages::even(recording.samples().len(), rate / comb.frequency, most);
         let inside = raceway == Raceway::Inner;
         let zone = |envelope: &[f64]| LoadZone::of(&fold::cut(envelope, &even.starts, even.period, fold::GRID));
         let (zone, modulation) = (zone(&high), zone(&loud).modulation);

@@ -297,7 +297,8 @@ impl WholeBearing {
             element,
             element_count: self.element_count,
             element_diameter: self.element_diameter_mm / 1e3,
-            diameter_offsets: self.diameters.offsets(self.element_count)?,
+            diameter_offsets: Vec::new(),
+            drawn_diameters: None,
             pitch_diameter: self.pitch_diameter_mm / 1e3,
             conformity_inner,
             conformity_outer,
@@ -316,6 +317,7 @@ impl WholeBearing {
             outer_compliance: self.outer_compliance_m_n,
             element_inertia: self.element_inertia,
         };
+        self.diameters.put_into(&mut bearing)?;
         self.clearance.put_into(&mut bearing)?;
         Ok(bearing)
     }

@@ -2,7 +2,7 @@
 
 use super::faults::{Faults, TableFault};
 use brinell::scene::quantity::DIAMETER_RMS;
-use brinell::scene::{Bearing, BearingError, SceneError};
+use brinell::scene::{Bearing, BearingError, DrawnDiameters, SceneError};
 
 const OFFSETS: &str = "bearing.element_diameter_offsets_um";
 const RMS: &str = "bearing.element_diameter_rms_um";
@@ -15,23 +15,26 @@ pub(super) struct Diameters {
 }
 
 impl Diameters {
-    /// Diameter of each of `count` elements beyond the nominal one (m); none of equal elements.
-    pub(super) fn offsets(&self, count: usize) -> Result<Vec<f64>, Faults> {
-        let offsets = match (&self.offsets_um, self.rms_um) {
+    /// Diameter of each element beyond the nominal one; none of equal elements.
+    pub(super) fn put_into(&self, bearing: &mut Bearing) -> Result<(), Faults> {
+        match (&self.offsets_um, self.rms_um) {
             (Some(_), Some(_)) => return Err(TableFault::Both { first: OFFSETS, second: RMS }.into()),
-            (Some(given), None) if given.len() != count => {
-                return Err(SceneError::from(BearingError::DiameterCount { found: given.len(), count }).into());
+            (Some(given), None) if given.len() != bearing.element_count => {
+                let (found, count) = (given.len(), bearing.element_count);
+                return Err(SceneError::from(BearingError::DiameterCount { found, count }).into());
             }
-            (Some(given), None) => given.iter().map(|um| um / 1e6).collect(),
+            (Some(given), None) if given.iter().any(|&um| um != 0.0) => {
+                bearing.diameter_offsets = given.iter().map(|um| um / 1e6).collect();
+            }
             (None, Some(um)) => {
                 DIAMETER_RMS.check(um / 1e6)?;
                 let why = "diameters of elements are drawn";
                 let missing = TableFault::Missing { key: "bearing.element_diameter_seed", why };
                 let seed = self.seed.or((um == 0.0).then_some(0)).ok_or(missing)?;
-                Bearing::drawn_diameter_offsets(count, um / 1e6, seed)
+                bearing.draw_diameters(DrawnDiameters { rms: um / 1e6, seed });
             }
-            (None, None) => Vec::new(),
-        };
-        Ok(if offsets.iter().all(|&offset| offset == 0.0) { Vec::new() } else { offsets })
+            (Some(_) | None, None) => {}
+        }
+        Ok(())
     }
 }

@@ -1,5 +1,5 @@
-//! What an engineer changes between runs: sizes of spalls, the cage's seed, the film's viscosity, a sensor's resonance
-//! and the recorder's rate.
+//! What an engineer changes between runs: sizes of spalls, the cage's seed, the film's viscosity, a sensor's resonance,
+//! the recorder's rate and the seed of the elements' diameters.
 //!
 //! These rows stand after all others, so that older ones keep their references.
 
@@ -12,17 +12,8 @@ impl Builder<'_> {
     pub(super) fn between_runs(&mut self) {
         let scene = self.scene;
         self.spalls();
-        // Larger seeds are none of FMI 2.0's integers: the scene's own holds.
-        let seed = scene.cage.irregularity.as_ref().and_then(|cage| i32::try_from(cage.seed).ok());
-        if let Some(start) = seed {
-            self.push(
-                "cage.seed",
-                "Seed of what is random in the cage",
-                Kind::Whole { start },
-                (Causality::Parameter, Variability::Fixed),
-                Q::Parameter(Parameter::CageSeed),
-            );
-        }
+        let seed = scene.cage.irregularity.as_ref().map(|cage| cage.seed);
+        self.seed("cage.seed", "Seed of what is random in the cage", seed, Parameter::CageSeed);
         if let Some(film) = &scene.film {
             self.parameter(
                 "film.viscosity",
@@ -51,6 +42,17 @@ impl Builder<'_> {
                 Unit::Hertz,
                 Limited { start: recorder.rate, min, max: 1e7, nominal: 1e4 },
             );
+        }
+        let seed = scene.bearing.drawn_diameters.map(|drawn| drawn.seed);
+        let what = "Seed of the elements' diameters";
+        self.seed("bearing.element_diameter_seed", what, seed, Parameter::DiameterSeed);
+    }
+
+    /// A seed, where something is drawn. Larger ones are none of FMI 2.0's integers: the scene's own holds.
+    fn seed(&mut self, name: &str, what: &str, of: Option<u64>, parameter: Parameter) {
+        if let Some(start) = of.and_then(|seed| i32::try_from(seed).ok()) {
+            let fixed = (Causality::Parameter, Variability::Fixed);
+            self.push(name, what, Kind::Whole { start }, fixed, Q::Parameter(parameter));
         }
     }
 

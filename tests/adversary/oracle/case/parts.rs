@@ -1,4 +1,7 @@
-//! Rollers in place of balls, oil between them and the raceways, and a structure's modes below the sensor.
+//! Rollers in place of balls, oil between them and the raceways, waves around bodies, and a structure's modes below the
+//! sensor.
+
+use super::On;
 
 /// A cylindrical roller.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +18,16 @@ pub struct Film {
     pub viscosity: f64,
     pub pressure_viscosity: f64,
     pub layer_um: Option<f64>,
+}
+
+/// Waves of one order around a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Wave {
+    pub on: On,
+    pub order: u32,
+    pub amplitude_um: f64,
+    /// Angle of a crest, where the radius is largest, counted as a defect's.
+    pub crest_deg: f64,
 }
 
 /// A mode of the structure below the sensor.
@@ -44,6 +57,19 @@ impl Film {
         let Self { viscosity, pressure_viscosity, layer_um } = self;
         let layer = layer_um.map_or(String::new(), |layer| format!("layer_um = {layer:?}\n"));
         format!("[film]\nviscosity_pa_s = {viscosity:?}\npressure_viscosity_1_pa = {pressure_viscosity:?}\n{layer}")
+    }
+}
+
+impl Wave {
+    /// Its table.
+    pub fn toml(&self) -> String {
+        let Self { on, order, amplitude_um, crest_deg } = self;
+        let body = match on {
+            On::Outer => "on = \"outer\"".to_owned(),
+            On::Inner => "on = \"inner\"".to_owned(),
+            On::Element { element, .. } => format!("on = \"element\"\nelement = {}", element + 1),
+        };
+        format!("[[waviness]]\n{body}\norder = {order}\namplitude_um = {amplitude_um:?}\nangle_deg = {crest_deg:?}\n")
     }
 }
 

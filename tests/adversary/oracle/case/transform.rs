@@ -41,6 +41,7 @@ impl Case {
             case.rings_deg[1] += degrees;
         } else {
             case.defects.iter_mut().filter(|defect| defect.on == On::Outer).for_each(|d| d.angle_deg += degrees);
+            case.waves.iter_mut().filter(|wave| wave.on == On::Outer).for_each(|wave| wave.crest_deg += degrees);
         }
         case
     }
@@ -54,14 +55,11 @@ impl Case {
         }
         (case.cage_deg, case.rings_deg) = (180.0 - case.cage_deg, case.rings_deg.map(|angle| -angle));
         let count = case.count;
+        case.put_elements(|j| (count - j) % count);
+        let mirror = |on: On, degrees: f64| if matches!(on, On::Element { .. }) { -degrees } else { 180.0 - degrees };
+        case.waves.iter_mut().for_each(|wave| wave.crest_deg = mirror(wave.on, wave.crest_deg));
         for defect in &mut case.defects {
-            match &mut defect.on {
-                On::Outer | On::Inner => defect.angle_deg = 180.0 - defect.angle_deg,
-                On::Element { element, .. } => {
-                    *element = (count - *element) % count;
-                    defect.angle_deg = -defect.angle_deg;
-                }
-            }
+            defect.angle_deg = mirror(defect.on, defect.angle_deg);
             match &mut defect.shape {
                 Shape::Trace(points) => {
                     points.reverse();
@@ -76,6 +74,18 @@ impl Case {
         case
     }
 
+    /// Puts each element, with its size, defects and waves, in the place of another.
+    pub fn put_elements(&mut self, place: impl Fn(usize) -> usize) {
+        let before = self.larger_um.clone();
+        before.into_iter().enumerate().for_each(|(j, larger)| self.larger_um[place(j)] = larger);
+        let of_defects = self.defects.iter_mut().map(|defect| &mut defect.on);
+        for on in of_defects.chain(self.waves.iter_mut().map(|wave| &mut wave.on)) {
+            if let On::Element { element, .. } = on {
+                *element = place(*element);
+            }
+        }
+    }
+
     /// With all lengths, forces and times multiplied. Rollers stay similar by forces that grow as areas, and oil does
     /// not, as asperities have their height.
     pub fn scaled(&self, by: Factors) -> Self {
@@ -84,6 +94,8 @@ impl Case {
         let mut case = self.clone();
         case.gravity = case.gravity.map(|g| g * length / (time * time));
         case.diameter_mm *= length;
+        case.larger_um.iter_mut().for_each(|larger| *larger *= length);
+        case.waves.iter_mut().for_each(|wave| wave.amplitude_um *= length);
         case.pitch_mm *= length;
         if let Grooves::Equal(diameter) = &mut case.grooves {
             *diameter *= length;

@@ -27,7 +27,9 @@ const FEW: usize = 150;
 /// Gain of contrast from which shifts are true ones: those that follow noise raise it a little.
 const CLEARER: f64 = 1.05;
 /// Passages used at most: more do not sharpen the average and cost time.
-const MOST: usize = 1200;
+pub(crate) const MOST: usize = 1200;
+/// The same where no length is read from events.
+pub(crate) const MOST_WITHOUT_EVENTS: usize = 400;
 
 /// When elements pass the defect.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,11 +45,11 @@ pub struct Passages {
 }
 
 impl Passages {
-    /// Even passages, before anything is known of them. `period` is the ball pass period (samples) as the envelope's
-    /// spectrum gives it.
-    pub fn even(samples: usize, period: f64) -> Self {
+    /// Even passages, `most` of them, before anything is known of them. `period` is the ball pass period (samples) as
+    /// the envelope's spectrum gives it.
+    pub fn even(samples: usize, period: f64, most: usize) -> Self {
         // One period at each end is lost to the filters' ends and to shifts.
-        let count = ((samples as f64 / period) as usize).saturating_sub(2).min(MOST);
+        let count = ((samples as f64 / period) as usize).saturating_sub(2).min(most);
         let index: Vec<usize> = (0..count).collect();
         Self { starts: evenly(&index, period), period, jitter: 0.0, index }
     }
