@@ -30,11 +30,9 @@ fn a_variable_that_is_not_real_is_told_with_the_method_to_use() {
 }
 
 #[test]
-fn an_unknown_name_is_told_with_the_nearest_one() {
-    let bearing = simulation("er16k-tb1");
-    let told = |name: &str| bearing.reference(name).unwrap_err().to_string();
-    assert_eq!(told("shaft.laod.y"), "this model has no variable shaft.laod.y: did you mean shaft.load.y?");
-    assert_eq!(told("temperature"), "this model has no variable temperature");
+fn an_unknown_name_is_refused_by_name() {
+    let error = simulation("er16k-tb1").reference("shaft.laod.y").unwrap_err();
+    assert_eq!(error.to_string(), "this model has no variable shaft.laod.y");
 }
 
 #[test]
