@@ -177,6 +177,20 @@ fn the_bearing_of_iso_16281_stands_where_the_exact_geometry_says() {
         printed(&values(&mut found, ["shaft.z"]), 1e-6, &[z]);
     }
     let names = ["shaft.x", "shaft.y", "shaft.z"];
+    // Nothing along the axis: a spring says where z is.
+    let radial = |clearance, load, moment| {
+        let scene = free_shaft(bearing(clearance), DegreesOfFreedom::Five).gravity([0.0; 2]).shaft_load([load, 0.0]);
+        let mut scene = scene.axial_load(1.0).cage(0.0, 0.0).build().unwrap();
+        (scene.shaft.axial.load, scene.shaft.axial.stiffness) = (0.0, 1.0);
+        scene.shaft.tilt.load_moment = [moment, 0.0];
+        started(scene)
+    };
+    for (clearance, x) in [(0.0, "15.1147742"), (5e-6, "21.2294303")] {
+        printed(&values(&mut radial(clearance, 1000.0, 0.0), ["shaft.x"]), 1e-6, &[x]);
+    }
+    let mut alone = radial(0.0, 0.0, 1.0);
+    printed(&values(&mut alone, ["shaft.x"]), 1e-6, &["-0.0992202"]);
+    printed(&values(&mut alone, ["shaft.tilt.x"]), 1e-3, &["3.7082689"]);
     let mut both = of(5e-6, [1000.0, 0.0, 1000.0], [0.0; 2], DegreesOfFreedom::Five);
     let [x, y, z] = values(&mut both, names);
     // Constants of the contacts with nine digits leave 6e-9 of z open, beside half of its last digit.

@@ -58,7 +58,7 @@ pub struct Run {
     #[arg(long, value_name = "NAME", group = "what")]
     pub(super) bearing: Option<String>,
     /// Its spall: outer, inner or element, a colon and its length in mm or deg [default: none]
-    #[arg(long, value_name = "inner:1.2mm", requires = "bearing")]
+    #[arg(long, value_name = "inner:1.2mm", requires = "bearing", conflicts_with = "scene")]
     pub(super) defect: Option<Spall>,
     /// Stop time in seconds [default: the scene's]
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]

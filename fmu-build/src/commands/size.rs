@@ -14,6 +14,7 @@ use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing,
 use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
 
 use super::{new_scene, size_report};
+use crate::package::model::operating_angle;
 use crate::package::read_scene;
 use crate::shared::{Project, Python, contact_map, csv, digits, note, speed, talk, whole_file};
 
@@ -83,6 +84,9 @@ pub fn command(
 ) -> Result<()> {
     // In space balls pass a spall as often as the contact angle says under which they run.
     let scene = with_operating_angle(&bearing.scene()?).into_owned();
+    if let Some(said) = operating_angle(&scene) {
+        note!("note: {said}");
+    }
     let recordings = read(recordings, options, &scene.bearing)?;
     for (r, speed) in recordings.iter().zip(options.speeds.iter().cycle()) {
         // Times that are read as numbers leave some 1e-13 of the rate over.

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
+use brinell::geometry::kinematics::frequencies;
 use brinell::scene::{Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
+use brinell::simulation::setup::with_operating_angle;
 use brinell::surface::Surface;
 use brinell_scene_file::DepthRemark;
 
@@ -55,6 +57,21 @@ pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
 pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
     let of_units = brinell_scene_file::unit_questions(text).into_iter().map(|remark| remark.to_string());
     of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
+}
+
+/// By how much the contact angle under which balls run moves their passages, which a catalogue does not say.
+pub(crate) fn operating_angle(scene: &Scene) -> Option<String> {
+    let mut scene = with_operating_angle(scene).into_owned();
+    let angle = scene.bearing.given_operating_angle().filter(|angle| *angle != 0.0)?;
+    let bpfo = |scene: &Scene| frequencies(&scene.bearing, 0.0, 1.0).bpfo;
+    let here = bpfo(&scene);
+    scene.bearing.operating_angle = Some(0.0);
+    let more = 100.0 * (here / bpfo(&scene) - 1.0);
+    Some(format!(
+        "balls run at a contact angle of {:.1} degrees and pass the outer raceway {more:.2} % more often than a \
+         catalogue without it says",
+        angle.to_degrees()
+    ))
 }
 
 /// Asks about the depths of a profile that were probably meant in another unit. Errors in it are reported where it

@@ -22,6 +22,7 @@ use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
 
 use crate::interrupt::Interrupted;
+use crate::package::model::operating_angle;
 use crate::package::{Model, Profile};
 use crate::shared::{Grid, Project, Python, detail, digits, note, whole_file};
 use columns::Columns;
@@ -249,7 +250,8 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
             orders: orders.as_ref(),
             changes: options.profile.is_some(),
         };
-        let notes: Vec<String> = notes(options).into_iter().chain(too_short).collect();
+        let angle = operating_angle(scene);
+        let notes: Vec<String> = notes(options).into_iter().chain(angle).chain(too_short).collect();
         let described = page::described(model, &files, &notes)?;
         let about = done.signals.path().with_extension("json");
         whole_file::write(&about, described.to_string())?;

@@ -115,6 +115,7 @@ impl Scene {
         let loads = [&self.shaft, &self.housing].map(|ring| [ring.load[0], ring.load[1], ring.axial.load]);
         let gravity = [self.gravity[0], self.gravity[1], self.axial_gravity];
         let pushes = loads.into_iter().flatten().chain(gravity).chain([self.shaft.axial.preload]);
+        let pushes = pushes.chain(self.shaft.tilt.load_moment);
         self.bearing.radial_clearance < 0.0 || pushes.into_iter().any(|push| push != 0.0)
     }
 }
