@@ -5,10 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
 use brinell::geometry::kinematics::frequencies;
-use brinell::scene::{Defect, DefectShape, Scene};
+use brinell::scene::{Bearing, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
-use brinell::simulation::setup::with_operating_angle;
 use brinell::surface::Surface;
 use brinell_scene_file::DepthRemark;
 
@@ -59,14 +58,13 @@ pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
     of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
-/// By how much the contact angle under which balls run moves their passages, which a catalogue does not say.
+/// By how much the contact angle under which balls run moves their passages, which a catalogue does not say; the scene
+/// says the angle.
 pub(crate) fn operating_angle(scene: &Scene) -> Option<String> {
-    let mut scene = with_operating_angle(scene).into_owned();
     let angle = scene.bearing.given_operating_angle().filter(|angle| *angle != 0.0)?;
-    let bpfo = |scene: &Scene| frequencies(&scene.bearing, 0.0, 1.0).bpfo;
-    let here = bpfo(&scene);
-    scene.bearing.operating_angle = Some(0.0);
-    let more = 100.0 * (here / bpfo(&scene) - 1.0);
+    let flat = Bearing { operating_angle: Some(0.0), ..scene.bearing.clone() };
+    let [here, there] = [&scene.bearing, &flat].map(|bearing| frequencies(bearing, 0.0, 1.0).bpfo);
+    let more = 100.0 * (here / there - 1.0);
     Some(format!(
         "balls run at a contact angle of {:.1} degrees and pass the outer raceway {more:.2} % more often than a \
          catalogue without it says",

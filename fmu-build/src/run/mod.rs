@@ -211,7 +211,8 @@ fn with_recorder(model: Model, options: &Options) -> Result<Model> {
 
 /// Spectra, figure and page.
 fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder: &Path) -> Result<()> {
-    let scene = &model.scene;
+    // With the operating angle under which it ran.
+    let scene = model.simulation.scene();
     let filtered = |_: &&Signals| scene.recorder.is_some_and(|recorder| recorder.filter == RecorderFilter::LinearPhase);
     let (source, rate) = match done.recording.as_ref().filter(filtered).zip(scene.recorder) {
         Some((recording, recorder)) => (recording, recorder.rate),

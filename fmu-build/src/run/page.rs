@@ -7,7 +7,7 @@ use anyhow::Result;
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::DefectOn;
-use brinell::simulation::setup::{track_across, with_operating_angle};
+use brinell::simulation::setup::track_across;
 use brinell::surface::Surface;
 use serde_json::{Value, json};
 
@@ -66,7 +66,7 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
         "element_radius": bearing.element_radius(),
         "outer_radius": bearing.outer_raceway_radius(),
         "inner_radius": bearing.inner_raceway_radius(),
-        "passage": 1.0 / Frequencies::of(&with_operating_angle(scene)).bpfo.abs().max(1.0),
+        "passage": 1.0 / Frequencies::of(model.simulation.scene()).bpfo.abs().max(1.0),
         "sensor": if scene.sensors.is_empty() { "housing.ay".to_owned() } else { scene.sensor_variable(0) },
         "changes": files.changes,
         "turns": scene.housing_speed.is_some(),

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
 use brinell::scene::Scene;
-use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::spectra::{EnvelopeSpectrum, EvenAngles, OrderSpectrum, envelope_spectrum};
 use serde_json::{Value, json};
 
@@ -28,7 +27,7 @@ pub(super) struct Acceleration {
 
 /// Spectra of one run.
 pub(super) struct Spectra<'a> {
-    /// The scene.
+    /// The scene, its operating angle known.
     scene: &'a Scene,
     /// Speed of its shaft where that changes.
     profile: Option<&'a SpeedProfile>,
@@ -126,7 +125,7 @@ impl<'a> Spectra<'a> {
                 return None;
             }
         }
-        let frequencies = Frequencies::of(&with_operating_angle(&scene));
+        let frequencies = Frequencies::of(&scene);
         (frequencies.bpfo > 0.0 && frequencies.bpfi > 0.0).then_some((frequencies, scene.shaft_speed.abs() / TAU))
     }
 
