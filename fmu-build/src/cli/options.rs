@@ -15,7 +15,7 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, number, seed, whole};
+use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, html_file, number, seed, whole};
 use crate::{run, sweep};
 
 /// Options of `build`.
@@ -326,7 +326,7 @@ pub struct Size {
     #[arg(long, value_name = "SIGN")]
     pub(super) decimal: Option<char>,
     /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
-    #[arg(long, value_name = "FILE.html")]
+    #[arg(long, value_name = "FILE.html", value_parser = html_file)]
     pub(super) report: Option<PathBuf>,
     #[command(flatten)]
     pub(super) drawn: Drawn,

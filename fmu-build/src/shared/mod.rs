@@ -20,5 +20,5 @@ pub use python::Python;
 pub use talk::bar;
 pub use whole_file::NotWritten;
 
-pub(crate) use numbers::{delimiter, digits, gigapascals, number, seed, speed, whole};
+pub(crate) use numbers::{delimiter, digits, gigapascals, html_file, number, seed, speed, whole};
 pub(crate) use talk::{detail, note};

@@ -1,6 +1,8 @@
 //! Numbers of the command line: what is none is refused in plain words. Negative ones are taken for numbers, not for
 //! options, so that the command itself says what is wrong with them. And numbers as people read them.
 
+use std::path::PathBuf;
+
 /// Any number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "it must be a number".to_owned())
@@ -46,6 +48,13 @@ pub(crate) fn delimiter(text: &str) -> Result<char, String> {
         (_, Some(sign), None) => Ok(sign),
         _ => Err("it must be one sign, or tab, or blank".to_owned()),
     }
+}
+
+/// The file of a page in HTML.
+pub(crate) fn html_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ending == "html" || ending == "htm" { Ok(path) } else { Err("it is a page in HTML: name it .html".to_owned()) }
 }
 
 /// Six significant digits, without the trailing noughts that a change of units leaves.

@@ -161,7 +161,7 @@ impl Recording {
             }
             (given, stated) => given.or(stated),
         };
-        let rate = rate.ok_or_else(|| refuse("the file states no sampling rate: give one".to_owned()))?;
+        let rate = rate.ok_or_else(|| refuse("the file states no sampling rate: give one (rate, Hz)".to_owned()))?;
         let beside = match &source.speed {
             Speed::Constant(_) => None,
             Speed::Tachometer(column, _) | Speed::Column(column) => Some(&**column),

@@ -15,6 +15,10 @@ use brinell::geometry::kinematics::Frequencies;
 pub(crate) const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
 /// Difference of frequencies, as a share, up to which they are of one comb.
 const SAME: f64 = 0.01;
+/// Multiples of a comb's frequency at which it has many of its lines, too.
+const RELATED: [f64; 7] = [1.0, 2.0, 3.0, 0.5, 1.5, 1.0 / 3.0, 2.0 / 3.0];
+/// Difference from these, as a share, from which a comb is another one, where a line's lobe is not wider.
+const OTHER: f64 = 0.02;
 /// Octaves whose mean counts.
 const COUNTED: usize = 2;
 
@@ -54,8 +58,10 @@ pub struct Combs {
     pub inner: Comb,
     /// Near 2 BSF.
     pub element: Comb,
-    /// The strongest comb at half to twice these frequencies of what is left without the strongest of the three.
+    /// The strongest comb at half to twice these frequencies that is not related to the strongest of the three.
     pub(crate) elsewhere: Comb,
+    /// Of the share of the strongest of the three what harmonics hold that are no multiples of 2, and of 3.
+    pub(crate) between_multiples: [f64; 2],
     /// The strongest at half or a third of that one's frequency, of what is left without it.
     pub(crate) between: Comb,
 }
@@ -87,8 +93,14 @@ impl Combs {
         let near = |all: &[Lines], f: f64| strongest(all, f * (1.0 - SLIP.end()), f * (1.0 - SLIP.start()), |_| true);
         let mut three = frequencies.map(|f| near(&all, f));
         let leader = (0..3).max_by(|&a, &b| three[a].share.total_cmp(&three[b].share)).unwrap_or(0);
+        let own = three[leader].frequency;
+        let lobes = 2.0 * LOBE / all[0].duration;
+        let is_related = |f: f64| RELATED.iter().any(|times| (f - times * own).abs() <= (OTHER * f).max(lobes));
+        let other = |f: f64| !all[0].of_shaft(f) && !is_related(f);
+        let elsewhere = strongest(&all, 0.5 * nominal.bpfo, 2.0 * nominal.bpfi, other);
+        let between_multiples = [2, 3].map(|parts| mean_of_best(&all, |lines| lines.share_between(own, parts)));
         let sideband = [speed, speed, nominal.ftf][leader];
-        all.iter_mut().for_each(|lines| lines.without(three[leader].frequency, sideband));
+        all.iter_mut().for_each(|lines| lines.without(own, sideband));
         for other in (0..3).filter(|&other| other != leader) {
             // Its own comb, wherever in the range that is; and no more than there was.
             let own = near(&all, frequencies[other]);
@@ -97,15 +109,14 @@ impl Combs {
                 three[other] = Comb { share: three[other].share, alone: three[other].alone, ..own };
             }
         }
-        let elsewhere = strongest(&all, 0.5 * nominal.bpfo, 2.0 * nominal.bpfi, |f| !all[0].of_shaft(f));
         let part = |parts: f64| {
-            let middle = three[leader].frequency / parts;
+            let middle = own / parts;
             strongest(&all, middle * (1.0 - SAME), middle * (1.0 + SAME), |_| true)
         };
         let [half, third] = [2.0, 3.0].map(part);
         let between = if half.share > third.share { half } else { third };
         let [outer, inner, element] = three;
-        Self { outer, inner, element, elsewhere, between }
+        Self { outer, inner, element, elsewhere, between_multiples, between }
     }
 }
 

@@ -77,16 +77,22 @@ impl Lines {
 
     /// Share of the variance that repeats at a frequency (Hz).
     pub(crate) fn share(&self, frequency: f64) -> f64 {
-        self.in_windows(frequency, &self.sums)
+        self.in_windows(frequency, |_| true, &self.sums)
+    }
+
+    /// What of it is in harmonics that are no multiples of `parts`: nothing where the comb is that of as many times
+    /// the frequency.
+    pub(crate) fn share_between(&self, frequency: f64, parts: usize) -> f64 {
+        self.in_windows(frequency, |k| !k.is_multiple_of(parts), &self.sums)
     }
 
     /// What noise alone has in the windows of such a comb.
     pub(crate) fn noise(&self, frequency: f64) -> f64 {
-        self.in_windows(frequency, &self.noise)
+        self.in_windows(frequency, |_| true, &self.noise)
     }
 
-    fn in_windows(&self, frequency: f64, sums: &[f64]) -> f64 {
-        let harmonics = (1..=HARMONICS).map(|k| k as f64 * frequency);
+    fn in_windows(&self, frequency: f64, chosen: impl Fn(usize) -> bool, sums: &[f64]) -> f64 {
+        let harmonics = (1..=HARMONICS).filter(|&k| chosen(k)).map(|k| k as f64 * frequency);
         let own = harmonics.map(|f| (f, self.half_width(f))).filter(|&(f, width)| self.off_shaft(f) >= width);
         own.map(|(f, width)| {
             let sum = |f: f64| sums[((f / self.bin).round().max(0.0) as usize).min(sums.len() - 1)];
@@ -175,7 +181,7 @@ fn sums(values: &[f64]) -> Vec<f64> {
 }
 
 /// Logarithm of the mean over blocks, without its mean.
-fn log_blocks(squared_envelope: &[f64], block: usize) -> Vec<f64> {
+pub(super) fn log_blocks(squared_envelope: &[f64], block: usize) -> Vec<f64> {
     let floor = QUIET * statistics::mean(squared_envelope) + f64::MIN_POSITIVE;
     let mut logs: Vec<f64> =
         squared_envelope.chunks_exact(block).map(|c| libm::log(statistics::mean(c) + floor)).collect();

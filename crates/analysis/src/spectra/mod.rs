@@ -9,6 +9,7 @@ mod lines;
 mod order_spectrum;
 pub(crate) mod other_speed;
 mod shaft_lines;
+mod strengths;
 
 pub use combs::{Comb, Combs};
 pub use envelope_spectrum::EnvelopeSpectrum;

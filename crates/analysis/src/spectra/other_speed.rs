@@ -1,25 +1,24 @@
 //! Whether a recording suits another speed than the one that is stated.
 //!
 //! Kinds of fault differ by the order of their comb, so that at another speed any comb is that of another kind: BPFI
-//! is 1.5 times BPFO. Three questions are asked that an order does not answer.
+//! is 1.5 times BPFO. Questions are asked that an order does not answer.
 //!
-//! **Are there lines between?** At twice the speed the comb takes every second line of the recording, and as strong
-//! ones stand between them.
+//! **Are its lines those of one comb, and is it the strongest?** At twice the speed as strong ones stand between them,
+//! at half the speed each second or two of three are missing, and at other speeds what is named may be sidebands of a
+//! comb elsewhere.
 //!
 //! **Which speed do the shaft's own lines have?** Unbalance and misalignment make lines at its harmonics in the signal
 //! itself. They are looked at where the shaft would turn if the comb were another kind's. On recorded machines they are
 //! 3.4 to 10 nepers high at the speed of the shaft, 0.5 to 7 more than at those other speeds.
 //!
-//! **Does the spall turn?** That is asked if these lines decide nothing. One of the inner raceway passes through the
-//! load zone once a turn, and its lines have sidebands at the speed of the shaft that belongs to them, the comb's
-//! frequency over the order of BPFI. Lines of the outer raceway have none at that distance.
+//! **With which shaft do the passages' strengths repeat?** That is asked if these lines decide nothing, of the two
+//! raceways ([`Strengths`]). Those over a spall of the inner one do, as it passes through the load zone once a turn.
 
-use super::combs::{Combs, SLIP};
+use super::combs::{Comb, Combs, SLIP};
 use super::fault::{EXISTS, Fault};
-use super::lines::{Lines, QUIET, steps};
 use super::shaft_lines::{CONFIRMS, ShaftLines, THERE};
+use super::strengths::Strengths;
 use crate::spectrum::Spectrum;
-use crate::statistics;
 use brinell::geometry::kinematics::Frequencies;
 
 /// Speeds that are considered, as shares of the stated one.
@@ -27,9 +26,18 @@ const SPEEDS: [f64; 2] = [0.5, 2.0];
 /// Share of the named comb's from which lines between its own are as strong. At twice the speed they hold the first of
 /// the recording's own comb, and more than what is named; between those of a recording's own comb is noise.
 const AS_STRONG: f64 = 0.5;
-/// Standard deviations above those at other distances from which sidebands exist: recordings of inner raceways have 6
-/// to 34, of outer ones −1 to 2.7 and one 7; simulated ones of outer raceways up to 4.1.
-const SIDEBANDS: f64 = 5.0;
+/// Share of the comb's below which lines are missing that are no multiples of 2, or of 3: at half the speed they have
+/// at most 0.09, at the speed of the recording 0.65 and more.
+const MISSING: f64 = 0.2;
+/// Times the named comb's share from which one elsewhere is stronger: at the speed of a recording 0.14 to 1.2, at other
+/// speeds up to 6.
+const STRONGER: f64 = 2.0;
+/// Share of the strengths' variance by which the shaft of one raceway must explain more than that of the other: of
+/// pieces of 1 s recorded over spalls of the inner one 0.37 to 0.88, of the outer one -0.06 to 0.9.
+const PLAINLY: f64 = 0.2;
+/// Share of their variance from which strengths repeat with a shaft: over spalls of the outer raceway with that of the
+/// inner one at most 0.21.
+const REPEATS: f64 = 0.25;
 
 /// What confirms the stated speed, in words, if anything does.
 ///
@@ -44,21 +52,10 @@ pub(crate) fn check(
 ) -> Result<Option<String>, String> {
     let fault = combs.fault();
     let Some(comb) = combs.of(fault) else { return Ok(None) };
-    let between = &combs.between;
-    if between.share >= AS_STRONG * comb.share {
-        return Err(format!(
-            "between the lines of the comb at {:.2} Hz with {:.1} % of the variance there are those of one at {:.2} Hz \
-             with {:.1} %, limit {AS_STRONG} of the former; it suits {}",
-            comb.frequency,
-            100.0 * comb.share,
-            between.frequency,
-            100.0 * between.share,
-            in_words(&suiting(between.frequency, Fault::None, nominal, speed))
-        ));
-    }
+    check_lines(combs, comb, nominal, speed)?;
     let mut others = suiting(comb.frequency, fault, nominal, speed);
     // What repeats as a fault does may be one at its own speed, although what is named repeats more.
-    if combs.elsewhere.share >= EXISTS {
+    if combs.elsewhere.share >= EXISTS.max(comb.share / STRONGER) {
         others.extend(suiting(combs.elsewhere.frequency, Fault::None, nominal, speed));
     }
     let shaft = ShaftLines::of(signal, rate);
@@ -76,21 +73,78 @@ pub(crate) fn check(
     if stated >= (highest + CONFIRMS).max(THERE) {
         return Ok(Some(heights));
     }
-    let lines = Lines::of(&spectrum.squared_envelope(comb.band), rate, comb.band, SPEEDS[1] * nominal.bpfi, speed);
-    let turning = comb.frequency / nominal.bpfi * speed;
-    let sidebands = sidebands(&lines, comb.frequency, turning);
-    let stand = match fault {
-        Fault::Outer if sidebands >= SIDEBANDS => "not below",
-        Fault::Inner if sidebands < SIDEBANDS => "below",
+    let strongest = if fault == Fault::Element { STRONGER } else { 1.0 };
+    if combs.elsewhere.share >= strongest * comb.share {
+        return Err(stronger(combs, comb, nominal, speed) + ", and no lines of the shaft confirm the speed");
+    }
+    let orders = match fault {
+        Fault::Outer => [nominal.bpfo, nominal.bpfi].map(|own| own / speed),
+        Fault::Inner => [nominal.bpfi, nominal.bpfo].map(|own| own / speed),
         _ => return Ok(None),
     };
-    Err(format!(
-        "at ± {turning:.2} Hz, by which an inner raceway's lines have sidebands, those of the comb at {:.2} Hz are \
-         {sidebands:.1} standard deviations above chance, {stand} the limit of {SIDEBANDS:.1}, and no lines of the \
-         shaft confirm the speed; it suits {}",
+    let envelope = spectrum.squared_envelope(comb.band);
+    let elements = ((nominal.bpfo + nominal.bpfi) / speed).round() as usize;
+    let suits = in_words(&others);
+    let strengths = Strengths::of(&envelope, rate, comb.frequency, elements)
+        .map_err(|why| format!("{why}, no lines of the shaft confirm the speed, and it suits {suits}"))?;
+    let [own, other] = orders.map(|order| strengths.share(order));
+    let shares = format!(
+        "{:.0} % of the variance of the passages' strengths repeats with a shaft at the stated speed, {:.0} % with one \
+         at {:.2} Hz",
+        100.0 * own,
+        100.0 * other,
+        comb.frequency / orders[1]
+    );
+    if own >= other + PLAINLY {
+        return Ok(Some(shares));
+    }
+    // A spall of the outer raceway need not feel the shaft, one of the inner raceway does.
+    if fault == Fault::Outer && other < REPEATS.min(own + PLAINLY) {
+        return Ok(None);
+    }
+    Err(format!("{shares}, and no lines of the shaft confirm the speed; it suits {suits}"))
+}
+
+/// Whether the named comb's lines are all there, and none between them.
+fn check_lines(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> Result<(), String> {
+    let between = &combs.between;
+    if between.share >= AS_STRONG * comb.share {
+        return Err(format!(
+            "between the lines of the comb at {:.2} Hz with {:.1} % of the variance there are those of one at {:.2} Hz \
+             with {:.1} %, limit {AS_STRONG} of the former; it suits {}",
+            comb.frequency,
+            100.0 * comb.share,
+            between.frequency,
+            100.0 * between.share,
+            in_words(&suiting(between.frequency, Fault::None, nominal, speed))
+        ));
+    }
+    for (times, held) in [2.0, 3.0].into_iter().zip(combs.between_multiples) {
+        if held < MISSING * comb.share {
+            return Err(format!(
+                "all lines of the comb at {:.2} Hz with {:.1} % of the variance except {:.1} % are those of one at {:.2} \
+                 Hz, limit {MISSING} of all; it suits {}",
+                comb.frequency,
+                100.0 * comb.share,
+                100.0 * held,
+                times * comb.frequency,
+                in_words(&suiting(times * comb.frequency, Fault::None, nominal, speed))
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn stronger(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> String {
+    let other = &combs.elsewhere;
+    format!(
+        "a comb at {:.2} Hz with {:.1} % of the variance is stronger than that at {:.2} Hz with {:.1} %; it suits {}",
+        other.frequency,
+        100.0 * other.share,
         comb.frequency,
-        in_words(&others)
-    ))
+        100.0 * comb.share,
+        in_words(&suiting(other.frequency, Fault::None, nominal, speed))
+    )
 }
 
 /// The kinds of fault, except one, that a comb (Hz) would suit, and at which speed of the shaft (Hz).
@@ -104,28 +158,4 @@ fn suiting(frequency: f64, except: Fault, nominal: Frequencies, speed: f64) -> V
 fn in_words(suiting: &[(Fault, f64)]) -> String {
     let one = |(kind, speed): &(Fault, f64)| format!("{} at a shaft speed of {speed:.2} Hz", kind.name());
     suiting.iter().map(one).collect::<Vec<_>>().join(" or ")
-}
-
-/// How far sidebands of a comb (Hz) at about `distance` (Hz) stand above those at other distances (standard
-/// deviations). What modulates makes one on each side: the lower of the two counts, and [`QUIET`] of the comb's own
-/// line does not.
-fn sidebands(lines: &Lines, comb: f64, distance: f64) -> f64 {
-    let own: Vec<f64> = lines.heights(comb, |f| lines.at(f)).map(|(_, height)| height).collect();
-    let strength = |distance: f64| {
-        let heights = lines.heights(comb, |f| lines.at(f - distance).min(lines.at(f + distance)));
-        let logs = heights.zip(&own).map(|((_, height), own)| libm::log1p(height / (1.0 + QUIET * own)));
-        statistics::mean(&logs.collect::<Vec<_>>())
-    };
-    let step = 0.5 / lines.duration;
-    let near = steps(distance * (1.0 + SLIP.start()), distance * (1.0 + SLIP.end()), step);
-    let chance: Vec<f64> = steps(0.08 * comb, 0.46 * comb, step).map(strength).collect();
-    above(&chance, near.map(strength).fold(0.0, f64::max))
-}
-
-/// How far a value stands above chance, in standard deviations of the lower half of `chance`: its upper half is widened
-/// by combs that share some harmonics with the one that is judged.
-fn above(chance: &[f64], value: f64) -> f64 {
-    let middle = statistics::median(chance);
-    let spread = middle - statistics::quantile(chance, 0.1587).unwrap_or(middle);
-    (value - middle) / spread.max(0.05)
 }

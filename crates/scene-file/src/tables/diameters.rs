@@ -6,6 +6,7 @@ use brinell::scene::{Bearing, BearingError, DrawnDiameters, SceneError};
 
 const OFFSETS: &str = "bearing.element_diameter_offsets_um";
 const RMS: &str = "bearing.element_diameter_rms_um";
+const SEED: &str = "bearing.element_diameter_seed";
 
 /// The keys of unequal elements.
 pub(super) struct Diameters {
@@ -19,6 +20,13 @@ impl Diameters {
     pub(super) fn put_into(&self, bearing: &mut Bearing) -> Result<(), Faults> {
         match (&self.offsets_um, self.rms_um) {
             (Some(_), Some(_)) => return Err(TableFault::Both { first: OFFSETS, second: RMS }.into()),
+            (Some(_), None) if self.seed.is_some() => {
+                return Err(TableFault::Both { first: OFFSETS, second: SEED }.into());
+            }
+            (None, None) if self.seed.is_some() => {
+                let why = "bearing.element_diameter_seed draws diameters of that size";
+                return Err(TableFault::Missing { key: RMS, why }.into());
+            }
             (Some(given), None) if given.len() != bearing.element_count => {
                 let (found, count) = (given.len(), bearing.element_count);
                 return Err(SceneError::from(BearingError::DiameterCount { found, count }).into());
@@ -29,7 +37,7 @@ impl Diameters {
             (None, Some(um)) => {
                 DIAMETER_RMS.check(um / 1e6)?;
                 let why = "diameters of elements are drawn";
-                let missing = TableFault::Missing { key: "bearing.element_diameter_seed", why };
+                let missing = TableFault::Missing { key: SEED, why };
                 let seed = self.seed.or((um == 0.0).then_some(0)).ok_or(missing)?;
                 bearing.draw_diameters(DrawnDiameters { rms: um / 1e6, seed });
             }
