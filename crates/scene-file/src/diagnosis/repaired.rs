@@ -19,13 +19,12 @@ enum StandIn {
 use StandIn::{Bearing, Value};
 
 /// Table, key, what stands for it, and keys that go without it.
-const STAND_INS: [(&str, &str, StandIn, &[&str]); 22] = [
+const STAND_INS: [(&str, &str, StandIn, &[&str]); 21] = [
     ("", "name", Value("'scene'"), &[]),
     ("", "bearing", Value("{}"), &[]),
     ("", "shaft", Value("{}"), &[]),
     ("", "housing", Value("{}"), &[]),
     ("bearing", "catalogue", Bearing, &[]),
-    ("bearing", "element_diameter_seed", Value("0"), &[]),
     ("film", "viscosity_pa_s", Value("0.04"), &[]),
     ("film", "pressure_viscosity_1_pa", Value("2e-8"), &[]),
     ("cage", "seed", Value("0"), &[]),
