@@ -12,8 +12,8 @@ use host::Instance;
 use tempfile::TempDir;
 use zip::ZipArchive;
 
-/// Where a host holds an inner ring that it moves (m): 12 µm beyond the concentric position, some hundred newtons on the
-/// lowest elements.
+/// Where a host holds an inner ring that it moves (m): 12 µm beyond the concentric position, some hundred newtons on
+/// the lowest elements.
 pub const HELD: f64 = -12e-6;
 
 /// The library that FMUs are packed with, compiled where it is not yet.

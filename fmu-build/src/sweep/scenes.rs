@@ -25,8 +25,8 @@ pub(super) const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
 /// Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
 /// time.
 const MAP_ACCURACY: f64 = 4e-3;
-/// Cells of the grid behind maps of spalls: half as many rows across the contact as a scene's own map has. Columns decide
-/// the force (`docs/evidence/contact.md`), and a map costs a quarter of the time.
+/// Cells of the grid behind maps of spalls: half as many rows across the contact as a scene's own map has. Columns
+/// decide the force (`docs/evidence/contact.md`), and a map costs a quarter of the time.
 const MAP_CELLS: [u32; 2] = [48, 16];
 
 /// The scene that runs change.

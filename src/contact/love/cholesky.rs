@@ -1,11 +1,11 @@
 //! Dense Cholesky factorisation A = L Lᵀ of one symmetric positive definite matrix, in storage that is used again and
 //! again.
 //!
-//! Rows lie in blocks of eight, each block column by column: what an inner loop reads is consecutive, and a matrix whose
-//! first rows are those of the last one keeps their part of the factor. Every entry is formed by fused multiply-adds in
+//! Rows lie in blocks of eight, each block column by column: what an inner loop reads is consecutive, and a matrix with
+//! the first rows of the last one keeps their part of the factor. Every entry is formed by fused multiply-adds in
 //! ascending order of the summation index and every dot product by eight fixed partial sums, so the bits depend neither
-//! on the vector width of the machine nor on what is kept: nalgebra's and faer's choose their order of sums by it, and
-//! allocate. Nothing is allocated once the storage has met its largest matrix.
+//! on what is kept nor on the vector width of the machine, by which nalgebra's and faer's choose their order of sums;
+//! these allocate, too. Nothing is allocated here once the storage has met its largest matrix.
 
 use pulp::{Arch, NullaryFnOnce, Simd, WithSimd};
 

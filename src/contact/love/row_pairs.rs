@@ -114,8 +114,8 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on segments of columns, given by their first cells, into `out` one segment after the other. `edges` are those
-    /// that the window feels.
+    /// K p on segments of columns, given by their first cells, into `out` one segment after the other. `edges` are
+    /// those that the window feels.
     pub(super) fn deflect<'a, I: Image + 'a>(
         &self,
         mirror_x: bool,
