@@ -268,20 +268,22 @@ mod tests {
         1.0 / (1.0 + i.abs_diff(j) as f64) + if i == j { 0.5 } else { 0.0 }
     }
 
-    /// Sets a column of such a matrix.
-    fn set(m: &mut Cholesky, c: usize, order: usize) {
-        let values = (c - c % BLOCK..order.next_multiple_of(BLOCK)).map(|r| if r < order { entry(r, c) } else { 0.0 });
-        m.set_column(c, c, &values.collect::<Vec<_>>());
+    /// Sets the columns of a matrix from row `kept` on.
+    fn set(m: &mut Cholesky, order: usize, kept: usize, of: impl Fn(usize, usize) -> f64) {
+        m.resize(order);
+        for c in 0..order {
+            let from = c.max(kept);
+            let rows = from - from % BLOCK..order.next_multiple_of(BLOCK);
+            let values: Vec<f64> = rows.map(|r| if r < order { of(r, c) } else { 0.0 }).collect();
+            m.set_column(c, from, &values);
+        }
     }
 
     #[test]
     fn solution_satisfies_the_system_at_every_order_around_the_panel_width() {
         let mut m = Cholesky::default();
         for order in [1, 2, 7, 8, 9, 16, 23, 24, 25, 61, 200, 5] {
-            m.resize(order);
-            for c in 0..order {
-                set(&mut m, c, order);
-            }
+            set(&mut m, order, 0, entry);
             assert_eq!(m.factor(0), Ok(()));
             let exact: Vec<f64> = (0..order).map(|i| 1.0 + (i % 7) as f64).collect();
             let mut b = vec![0.0; m.solve_length()];
@@ -303,10 +305,7 @@ mod tests {
         let order = 61;
         let filled = || {
             let mut m = Cholesky::default();
-            m.resize(order);
-            for c in 0..order {
-                set(&mut m, c, order);
-            }
+            set(&mut m, order, 0, entry);
             m
         };
         let (mut native, mut plain) = (filled(), filled());
@@ -319,6 +318,26 @@ mod tests {
         Arch::Scalar.dispatch(Solve(&plain, &mut by_plain));
         let bits = |solution: &[f64]| solution.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&by_native), bits(&by_plain));
+    }
+
+    #[test]
+    fn a_factor_that_keeps_its_first_rows_has_the_bits_of_one_made_anew() {
+        for (before, order, kept) in [(61, 61, 40), (30, 61, 24), (61, 32, 32), (24, 21, 8)] {
+            let other = |r: usize, c: usize| entry(r, c) + if r == c && r >= kept { 0.25 } else { 0.0 };
+            let (mut anew, mut known) = (Cholesky::default(), Cholesky::default());
+            set(&mut anew, order, 0, other);
+            set(&mut known, before, 0, entry);
+            assert_eq!((anew.factor(0), known.factor(0)), (Ok(()), Ok(())));
+            set(&mut known, order, kept, other);
+            assert_eq!(known.factor(kept), Ok(()));
+            let solution = |m: &Cholesky| -> Vec<u64> {
+                let mut b = vec![0.0; m.solve_length()];
+                (0..order).for_each(|i| b[i] = (i as f64).sqrt());
+                m.solve(&mut b);
+                b.into_iter().map(f64::to_bits).collect()
+            };
+            assert_eq!(solution(&known), solution(&anew), "{before} {order} {kept}");
+        }
     }
 
     #[test]
