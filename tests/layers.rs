@@ -29,7 +29,7 @@ const CRATES: [(&str, &[&str]); 11] = [
     ("crates/spectrum", &[]),
     ("crates/analysis", &["brinell", "brinell-eigen", "brinell-spectrum"]),
     ("fmu-build", &["brinell", "brinell-analysis", "brinell-scene-file"]),
-    ("laboratory", &["brinell", "brinell-analysis", "brinell-scene-file", "fmu-build"]),
+    ("laboratory", &["brinell", "brinell-analysis", "brinell-host", "brinell-scene-file", "fmu-build"]),
     ("tests/adversary/oracle", &[]),
     ("tests/fuzz", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-scene-file", "brinell-tests"]),
     ("tests/host", &[]),

@@ -2,6 +2,7 @@
 
 pub mod cli;
 pub mod dist;
+pub mod packed;
 pub mod report;
 #[cfg(test)]
 mod scene_page;

@@ -199,6 +199,23 @@ fn a_sweep_that_is_killed_goes_on_where_it_was_and_has_the_bits_of_one_that_was_
 }
 
 #[test]
+fn maps_of_spalls_have_half_the_rows_unless_the_sweep_says_otherwise_and_those_of_traces_the_usual_ones() {
+    let folder = common::folder("sweep-cells");
+    let cells = |scene: &str, set: &str| {
+        let path = file(&folder, &format!("scene = \"{scene}\"\nruns = 1\n[set]\n{set}\n"));
+        let output = program(&path, &folder.join("out"), &["--scene-of", "0"]).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        let scene: toml::Table = String::from_utf8(output.stdout).unwrap().parse().unwrap();
+        scene["contact"].get("cells").map(toml::Value::to_string)
+    };
+    let some = |cells: &str| Some(cells.to_owned());
+    assert_eq!(cells("er16k-tb1", ""), some("[48, 16]"));
+    assert_eq!(cells("er16k-tb1", "contact.cells = [32, 24]"), some("[32, 24]"));
+    assert_eq!(cells("er16k-tb1", "contact.law = \"hertz\""), None);
+    assert_eq!(cells("6205-epps", ""), None);
+}
+
+#[test]
 fn each_run_has_the_bits_of_brinell_run_of_its_scene() {
     let folder = common::folder("sweep-as-run");
     let text = QUICK.replace("noise_db = [0, 30]\n", "").replace("runs = 24", "runs = 6");

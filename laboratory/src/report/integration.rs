@@ -9,14 +9,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
-use brinell::simulation::{Method, Simulation, StepCounts};
+use brinell::simulation::{Method, StepCounts};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Extent;
-use super::machine::fastest;
-use super::run::{Deviation, RATE, Signals, Subject};
+use super::machine::{fastest, timed};
+use super::run::{Deviation, RATE, STEP, Signals, Subject};
+use crate::packed::{self, Packed};
 use fmu_build::package::Model;
-use fmu_build::shared::{Python, whole_file};
+use fmu_build::shared::{Project, Python, whole_file};
 
 /// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.
@@ -35,8 +36,11 @@ pub(super) struct Row {
     pub(super) method: &'static str,
     /// Tolerance.
     pub(super) setting: f64,
-    /// CPU seconds per simulated second.
+    /// CPU seconds per simulated second: of the automatic method in the FMU's own library, of the others, which an FMU
+    /// does not offer by themselves, in this program.
     pub(super) cost: f64,
+    /// The same in this program.
+    pub(super) in_program: f64,
     /// Accepted steps per simulated second.
     pub(super) steps: f64,
     /// Share of them that were implicit.
@@ -73,7 +77,7 @@ const METHODS: [(&str, Method); 4] = [
 ];
 
 /// Measures and writes `integration.csv`.
-pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<Integration> {
+pub(super) fn measure(project: &Project, python: &Python, extent: Extent, data: &Path) -> Result<Integration> {
     let names: &[&str] = match extent {
         Extent::Full => &[
             "6205-hosted",
@@ -89,11 +93,13 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
         Extent::Short => &["6205-healthy", "er16k-tb1-hosted-shaft"],
     };
     let tolerances = if extent == Extent::Full { &TOLERANCES[..] } else { &TOLERANCES[1..4] };
+    let library = packed::library(project)?;
     let bar = bar((names.len() * (2 + METHODS.len() * tolerances.len())) as u64);
     let mut results = Integration { rows: Vec::new(), checks: Vec::new(), stop: STOP };
     for name in names {
         let model = Model::read(&scene_file(name))?;
         let subject = Subject::new(&model, (*name).to_owned(), STOP)?;
+        let fmu = Packed::new(&model, &library)?;
         bar.set_message(format!("{name}: reference"));
         let reference = subject.signals(Method::Automatic, REFERENCE)?;
         bar.inc(1);
@@ -109,7 +115,7 @@ pub(super) fn measure(python: &Python, extent: Extent, data: &Path) -> Result<In
         for (label, method) in METHODS {
             for &tolerance in tolerances {
                 bar.set_message(format!("{name}: {label}, {tolerance:e}"));
-                results.rows.push(controlled(&subject, label, method, tolerance, &reference)?);
+                results.rows.push(controlled(&subject, &fmu, label, method, tolerance, &reference)?);
                 bar.inc(1);
             }
         }
@@ -129,6 +135,7 @@ fn bar(length: u64) -> ProgressBar {
 
 fn controlled(
     subject: &Subject,
+    fmu: &Packed,
     label: &'static str,
     method: Method,
     tolerance: f64,
@@ -137,19 +144,24 @@ fn controlled(
     let signals = subject.signals(method, tolerance)?;
     let start = subject.start(method, tolerance)?;
     let mut counts = StepCounts::default();
-    let seconds = fastest(
-        || start.clone(),
-        |simulation: &mut Simulation| {
-            subject.finish(simulation)?;
-            counts = simulation.step_counts();
-            anyhow::Ok(())
-        },
-    )?;
+    let mut in_program = || {
+        let mut simulation = start.clone();
+        let seconds = timed(|| subject.finish(&mut simulation))?;
+        counts = simulation.step_counts();
+        anyhow::Ok(seconds)
+    };
+    let [in_program, seconds] = if method == Method::Automatic {
+        fastest([&mut in_program, &mut || fmu.run(tolerance, subject.stop, STEP)])?
+    } else {
+        let [seconds] = fastest([&mut in_program])?;
+        [seconds; 2]
+    };
     Ok(Row {
         scene: subject.name.clone(),
         method: label,
         setting: tolerance,
         cost: seconds / subject.stop,
+        in_program: in_program / subject.stop,
         steps: counts.all as f64 / subject.stop,
         implicit: counts.implicit as f64 / counts.all as f64,
         deviation: signals.deviation(reference),
@@ -211,18 +223,19 @@ fn write(path: &Path, rows: &[Row]) -> Result<()> {
     whole_file::write_with(path, |out| {
         writeln!(
             out,
-            "scene,method,setting,cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,acceleration_max,path_rms_m,\
-             path_max_m"
+            "scene,method,setting,cpu_s_per_s,program_cpu_s_per_s,steps_per_s,implicit_share,acceleration_rms,\
+             acceleration_max,path_rms_m,path_max_m"
         )?;
         for row in rows {
             let d = row.deviation;
             writeln!(
                 out,
-                "{},{},{:e},{:.4e},{:.4e},{:.3},{:.2e},{:.2e},{:.2e},{:.2e}",
+                "{},{},{:e},{:.4e},{:.4e},{:.4e},{:.3},{:.2e},{:.2e},{:.2e},{:.2e}",
                 row.scene,
                 row.method,
                 row.setting,
                 row.cost,
+                row.in_program,
                 row.steps,
                 row.implicit,
                 d.acceleration_rms,

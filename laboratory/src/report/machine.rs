@@ -1,7 +1,6 @@
 //! The machine that times were taken on, and the clock that they were taken with.
 
 use std::fs;
-use std::time::Duration;
 
 use cpu_time::ThreadTime;
 
@@ -24,19 +23,25 @@ pub(super) fn description() -> String {
     )
 }
 
-/// CPU seconds of this thread that the fastest of at least three runs took; `run` is given a fresh copy by `fresh`.
-pub(super) fn fastest<T, E>(fresh: impl Fn() -> T, mut run: impl FnMut(&mut T) -> Result<(), E>) -> Result<f64, E> {
-    let (mut best, mut spent, mut runs) = (f64::INFINITY, Duration::ZERO, 0);
-    // Three runs, and more of what is over in an instant.
-    while runs < 3 || (spent < Duration::from_millis(60) && runs < 50) {
-        let mut copy = fresh();
-        let start = ThreadTime::now();
-        run(&mut copy)?;
-        let taken = start.elapsed();
-        spent += taken;
-        runs += 1;
-        best = best.min(taken.as_secs_f64());
-        if spent > Duration::from_secs(20) {
+/// CPU seconds of this thread that a run takes.
+pub(super) fn timed<E>(run: impl FnOnce() -> Result<(), E>) -> Result<f64, E> {
+    let start = ThreadTime::now();
+    run()?;
+    Ok(start.elapsed().as_secs_f64())
+}
+
+/// CPU seconds of the fastest of at least three runs of each kind, in turn: each run says what it took.
+pub(super) fn fastest<const N: usize, E>(mut runs: [&mut dyn FnMut() -> Result<f64, E>; N]) -> Result<[f64; N], E> {
+    let (mut best, mut spent, mut turns) = ([f64::INFINITY; N], 0.0, 0);
+    // Three turns, and more of what is over in an instant.
+    while turns < 3 || (spent < 0.06 && turns < 50) {
+        for (best, run) in best.iter_mut().zip(&mut runs) {
+            let taken = run()?;
+            spent += taken;
+            *best = best.min(taken);
+        }
+        turns += 1;
+        if spent > 20.0 {
             break;
         }
     }

@@ -50,7 +50,8 @@ fn contact_row(row: &contact::Row) -> Vec<String> {
 
 fn tolerance_row(row: &Row) -> Vec<String> {
     let (steps, implicit) = (format!("{:.0}", row.steps), format!("{:.0} %", 100.0 * row.implicit));
-    let mut cells = vec![row.scene.clone(), format!("{:.0e}", row.setting), cost(row.cost), steps, implicit];
+    let mut cells =
+        vec![row.scene.clone(), format!("{:.0e}", row.setting), cost(row.cost), cost(row.in_program), steps, implicit];
     let d = row.deviation;
     cells.extend([d.acceleration_rms, d.acceleration_max, d.path_rms, d.path_max].map(short));
     cells

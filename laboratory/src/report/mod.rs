@@ -5,7 +5,8 @@
 //! | `contact` | how wrong is one contact, by grid and by map, for which CPU time |
 //! | `integration` | how wrong is a run, by which method and tolerance, for which CPU time |
 //!
-//! Times are CPU times of the one thread that steps, best of several runs; other programs on the machine still take
+//! Times are CPU times of the one thread that steps, best of several runs, of the automatic method within `fmi2DoStep`
+//! of the library that FMUs are packed with; other programs on the machine still take
 //! caches and memory from it, so ratios within a table mean more than the times.
 
 mod contact;
@@ -35,7 +36,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let [data, figures] = folders(folder)?;
     let python = Python::prepare(project)?;
     let contacts = contact::measure(extent, &data)?;
-    let integration = integration::measure(&python, extent, &data)?;
+    let integration = integration::measure(project, &python, extent, &data)?;
     let stem = figures.join("error-vs-run-time");
     let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/report.py"));
     print!("{}", python.run_file(script, [data.as_os_str(), stem.as_os_str()])?);

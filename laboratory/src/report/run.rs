@@ -6,6 +6,8 @@ use brinell::simulation::{Method, Simulation};
 
 use fmu_build::package::Model;
 
+use crate::packed::HELD;
+
 /// Rate at which runs are compared (Hz): above every frequency that a housing sensor sees.
 pub(super) const RATE: f64 = 100_000.0;
 /// Communication step of the runs (s).
@@ -51,9 +53,8 @@ impl Subject {
         scene.recorder = Some(Recorder { rate: RATE, filter: RecorderFilter::None });
         let profiles = model.profile_texts();
         let mut simulation = Simulation::with_map(scene, profiles, model.map.as_deref())?;
-        // 12 µm beyond the concentric position: some hundred newtons on the lowest elements.
         if model.scene.shaft.motion == brinell::scene::Motion::Host {
-            simulation.set_reals(&[simulation.reference("shaft.y")?], &[-12e-6])?;
+            simulation.set_reals(&[simulation.reference("shaft.y")?], &[HELD])?;
         }
         Ok(Self { name, simulation, stop })
     }

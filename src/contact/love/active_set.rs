@@ -13,9 +13,9 @@
 
 use std::sync::Arc;
 
-use super::cholesky::{Cholesky, NotPositiveDefinite};
+use super::cholesky::{BLOCK, Cholesky, NotPositiveDefinite};
 use super::half_space::KernelTable;
-use super::row_pairs::{CellIndex, Image, Loaded, Mirror, PressedCell, RowPairs, Run, SEGMENT};
+use super::row_pairs::{CellIndex, Loaded, Mirror, PressedCell, RowPairs, Run, SEGMENT};
 use super::soft_edges::{SoftEdge, WindowEdge};
 use crate::contact::error::ContactError;
 
@@ -64,11 +64,13 @@ pub struct ActiveSet {
     factored: Vec<Run>,
     /// The factor holds for this position only.
     factored_there: bool,
+    /// A column of the matrix.
+    column: Vec<f64>,
     runs: Vec<Run>,
     state: Vec<State>,
     pressure: Vec<f64>,
-    /// First columns of the segments of a row in which cells may penetrate, and what K p is there.
-    segments: Vec<i32>,
+    /// First cells of the segments in which cells may penetrate, and what K p is there.
+    segments: Vec<CellIndex>,
     deflection: Vec<f64>,
 }
 
@@ -91,6 +93,7 @@ impl ActiveSet {
             factor: Cholesky::default(),
             factored: Vec::new(),
             factored_there: false,
+            column: Vec::new(),
             runs: Vec::new(),
             state: Vec::new(),
             pressure: Vec::new(),
@@ -106,10 +109,11 @@ impl ActiveSet {
     pub(super) fn make_room(&mut self) {
         let (rows, columns) = (self.pairs.rows(), self.pairs.reach());
         self.factored.reserve(4 * rows);
+        self.column.reserve(rows * columns + 2 * BLOCK);
         self.runs.reserve(4 * rows);
         self.state.reserve(rows * columns);
-        self.segments.reserve(columns.div_ceil(SEGMENT));
-        self.deflection.reserve(columns.next_multiple_of(SEGMENT));
+        self.segments.reserve(rows * columns.div_ceil(SEGMENT));
+        self.deflection.reserve(rows * columns.next_multiple_of(SEGMENT));
     }
 
     /// With edges that make the raceway softer.
@@ -146,10 +150,11 @@ impl ActiveSet {
     pub fn residual(&mut self, window: Window<'_>) -> f64 {
         let mut worst = 0.0_f64;
         let mut deflection = vec![0.0; window.columns.next_multiple_of(SEGMENT)];
-        let segments: Vec<i32> = (0..window.columns).step_by(SEGMENT).map(|c| window.first + c as i32).collect();
         for row in 0..self.pairs.rows() {
+            let cell = |k: usize| CellIndex { row, column: window.first + k as i32 };
+            let segments: Vec<CellIndex> = (0..window.columns).step_by(SEGMENT).map(cell).collect();
             let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
-            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &segments, &mut deflection);
+            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, &segments, &mut deflection);
             let cells = row * window.columns..(row + 1) * window.columns;
             for ((&g, &state), &u) in window.interference[cells.clone()].iter().zip(&self.state[cells]).zip(&deflection)
             {
@@ -267,62 +272,56 @@ impl ActiveSet {
         }
     }
 
-    /// The factor of another position serves as well: only differences of columns matter, unless there is a left and
-    /// a right, or an edge is felt.
-    fn same_set(&self) -> bool {
-        let shift = match (self.runs.first(), self.factored.first()) {
-            (Some(a), Some(b)) => a.first - b.first,
-            _ => return false,
-        };
+    /// How many of the first unknowns have the place in the factor that they had in the last one. That of another
+    /// position serves as well: only differences of columns matter, unless there is a left and a right, or an edge is
+    /// felt.
+    fn kept(&self) -> usize {
+        let (Some(a), Some(b)) = (self.runs.first(), self.factored.first()) else { return 0 };
+        let shift = a.first - b.first;
         let there = self.factored_there || felt(&self.edges).next().is_some();
-        (shift == 0 || !(self.mirror.x || there))
-            && self.runs.len() == self.factored.len()
-            && self
-                .runs
-                .iter()
-                .zip(&self.factored)
-                .all(|(a, b)| a.row == b.row && a.length == b.length && a.first == b.first + shift)
+        if shift != 0 && (self.mirror.x || there) {
+            return 0;
+        }
+        let mut kept = 0;
+        for (a, b) in self.runs.iter().zip(&self.factored) {
+            if (a.row, a.first) != (b.row, b.first + shift) {
+                break;
+            }
+            kept += a.length.min(b.length);
+            if a.length != b.length {
+                break;
+            }
+        }
+        kept
     }
 
     fn refactor(&mut self) -> Result<bool, ContactError> {
-        if self.same_set() {
+        let kept = self.kept();
+        let count = self.runs.last().map_or(0, |run| run.at + run.length);
+        if kept == count && self.factor.order() == count {
             return Ok(false);
         }
         self.factored.clear();
-        let count = self.runs.last().map_or(0, |run| run.at + run.length);
         self.factor.resize(count);
-        let middle = self.pairs.reach() as i32 - 1;
-        for (n, source) in self.runs.iter().enumerate() {
-            for k in 0..source.length {
-                let c = source.at + k;
-                let from = source.first + k as i32;
-                let column = self.factor.column_mut(c);
-                for target in &self.runs[n..] {
-                    let skip = c.saturating_sub(target.at);
-                    let to = target.first + skip as i32;
-                    let pair = self.pairs.pair(target.row, source.row);
-                    let start = (middle + to - from) as usize;
-                    let length = target.length - skip;
-                    let out = &mut column[target.at + skip - c..target.at + target.length - c];
-                    out.copy_from_slice(&pair[start..start + length]);
-                    if self.mirror.x {
-                        let start = (middle + to + from + 1) as usize;
-                        for (out, image) in out.iter_mut().zip(&pair[start..start + length]) {
-                            *out += image;
-                        }
-                    }
-                    for edge in felt(&self.edges).filter(|edge| edge.includes(from)) {
-                        let cell = |row: usize, column: i32| CellIndex { row, column };
-                        let image = edge.on(cell(target.row, to), length, cell(source.row, from));
-                        for (out, image) in out[image.skip..].iter_mut().zip(image.values) {
-                            *out += image;
-                        }
-                    }
-                }
+        // Whole blocks of the factor are kept.
+        let kept = kept - kept % BLOCK;
+        let mut column = std::mem::take(&mut self.column);
+        column.resize(count + 2 * BLOCK, 0.0);
+        for (n, run) in self.runs.iter().enumerate() {
+            for k in 0..run.length {
+                let unknown = run.at + k;
+                let from = unknown.max(kept);
+                let first = from - from % BLOCK;
+                let source = CellIndex { row: run.row, column: run.first + k as i32 };
+                let out = &mut column[from - first..];
+                self.pairs.influence(self.mirror.x, felt(&self.edges), source, &self.runs[n..], from, out);
+                column[count - first..].fill(0.0);
+                self.factor.set_column(unknown, from, &column);
             }
         }
+        self.column = column;
         self.factor
-            .factor()
+            .factor(kept)
             .map_err(|NotPositiveDefinite { pivot }| ContactError::NotPositiveDefinite { pivot, cells: count })?;
         self.factored.clone_from(&self.runs);
         self.factored_there = felt(&self.edges).next().is_some();
@@ -356,35 +355,34 @@ impl ActiveSet {
 
     fn add_penetrating(&mut self, window: Window<'_>, touching: f64) -> bool {
         let columns = window.columns;
-        self.deflection.clear();
-        self.deflection.resize(columns.next_multiple_of(SEGMENT), 0.0);
-        let mut changed = false;
+        let open = |g: f64, state: State| g > touching && state == State::Open;
+        // Beside the contact, and not in its middle: there all cells are active.
+        self.segments.clear();
         for row in 0..self.pairs.rows() {
             let g = &window.interference[row * columns..(row + 1) * columns];
-            let state = &mut self.state[row * columns..(row + 1) * columns];
-            // Beside the contact, and not in its middle: there all cells are active.
-            self.segments.clear();
+            let state = &self.state[row * columns..(row + 1) * columns];
             let mut column = 0;
             while column < columns {
-                let open = g[column] > touching && state[column] == State::Open;
+                let open = open(g[column], state[column]);
                 if open {
-                    self.segments.push(window.first + column as i32);
+                    self.segments.push(CellIndex { row, column: window.first + column as i32 });
                 }
                 column += if open { SEGMENT } else { 1 };
             }
-            if self.segments.is_empty() {
-                continue;
-            }
-            let out = &mut self.deflection[..SEGMENT * self.segments.len()];
-            let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
-            self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, row, &self.segments, out);
-            for (&segment, deflection) in self.segments.iter().zip(out.chunks_exact(SEGMENT)) {
-                let from = (segment - window.first) as usize;
-                for (c, &u) in (from..columns).zip(deflection) {
-                    if state[c] == State::Open && g[c] - u > touching {
-                        state[c] = State::Active;
-                        changed = true;
-                    }
+        }
+        self.deflection.clear();
+        self.deflection.resize(SEGMENT * self.segments.len(), 0.0);
+        let loaded = Loaded { runs: &self.runs, pressure: &self.pressure };
+        self.pairs.deflect(self.mirror.x, felt(&self.edges), loaded, &self.segments, &mut self.deflection);
+        let mut changed = false;
+        for (first, deflection) in self.segments.iter().zip(self.deflection.chunks_exact(SEGMENT)) {
+            let (start, end) =
+                (first.row * columns + (first.column - window.first) as usize, (first.row + 1) * columns);
+            for (c, &u) in (start..end).zip(deflection) {
+                let g = window.interference[c];
+                if open(g, self.state[c]) && g - u > touching {
+                    self.state[c] = State::Active;
+                    changed = true;
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Entries depend on the difference of columns only: one line of Love's kernel for each pair of rows, with the image of
 //! the second row added where front and back mirror each other. Products are asked for on segments of [`SEGMENT`]
-//! columns; the sum for each cell runs over the pressures in a fixed order, whichever segment it is in.
+//! columns, of whichever rows; the sum for each cell runs over the pressures in a fixed order.
 
 use pulp::{Arch, NullaryFnOnce};
 
@@ -114,18 +114,51 @@ impl RowPairs {
         self.rows
     }
 
-    /// K p on segments of one row: `firsts` are the first columns of the segments, whose cells go into `out` one
-    /// segment after the other. `edges` are those that the window feels.
+    /// K p on segments of columns, given by their first cells, into `out` one segment after the other. `edges` are
+    /// those that the window feels.
     pub(super) fn deflect<'a, I: Image + 'a>(
         &self,
         mirror_x: bool,
         edges: impl Iterator<Item = &'a I> + Clone,
         Loaded { runs, pressure }: Loaded,
-        row: usize,
-        firsts: &[i32],
+        segments: &[CellIndex],
         out: &mut [f64],
     ) {
-        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, row, firsts, out });
+        Arch::new().dispatch(Deflect { pairs: self, mirror_x, edges, runs, pressure, segments, out });
+    }
+
+    /// Influence of a cell on the unknowns of `runs` from `from` on, into `out`; beyond the last of them it may write
+    /// up to a segment of something else.
+    pub(super) fn influence<'a, I: Image + 'a>(
+        &self,
+        mirror_x: bool,
+        edges: impl Iterator<Item = &'a I> + Clone,
+        source: CellIndex,
+        runs: &[Run],
+        from: usize,
+        out: &mut [f64],
+    ) {
+        let middle = self.reach as i32 - 1;
+        for target in runs.iter().filter(|target| target.at + target.length > from) {
+            let skip = from.saturating_sub(target.at);
+            let (to, length) = (target.first + skip as i32, target.length - skip);
+            let pair = self.pair(target.row, source.row);
+            let out = &mut out[target.at + skip - from..];
+            // Segments are copied faster than what is just as long as the run; the next one is written over the rest.
+            let direct = pair[(middle + to - source.column) as usize..].chunks_exact(SEGMENT);
+            for (out, direct) in out.chunks_exact_mut(SEGMENT).zip(direct).take(length.div_ceil(SEGMENT)) {
+                out.copy_from_slice(direct);
+            }
+            let out = &mut out[..length];
+            if mirror_x {
+                let images = &pair[(middle + to + source.column + 1) as usize..];
+                out.iter_mut().zip(images).for_each(|(out, image)| *out += image);
+            }
+            for edge in edges.clone().filter(|edge| edge.includes(source.column)) {
+                let image = edge.on(CellIndex { row: target.row, column: to }, length, source);
+                out[image.skip..].iter_mut().zip(image.values).for_each(|(out, image)| *out += image);
+            }
+        }
     }
 
     /// Line of the kernel between two rows; difference 0 is at index `reach` − 1.
@@ -162,17 +195,19 @@ pub struct PressedCell {
     pub pressure: f64,
 }
 
-/// K p on segments of one row.
+/// K p on segments of columns.
 struct Deflect<'a, E> {
     pairs: &'a RowPairs,
     mirror_x: bool,
     edges: E,
     runs: &'a [Run],
     pressure: &'a [f64],
-    row: usize,
-    firsts: &'a [i32],
+    segments: &'a [CellIndex],
     out: &'a mut [f64],
 }
+
+/// Sums of some segments.
+type Sums = [[f64; SEGMENT]; TOGETHER];
 
 impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Deflect<'_, E> {
     type Output = ();
@@ -180,13 +215,12 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Def
     #[inline(always)]
     fn call(mut self) {
         let out = std::mem::take(&mut self.out);
-        for (firsts, out) in self.firsts.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER * SEGMENT)) {
-            match *firsts {
-                [a] => self.on([a], out),
-                [a, b] => self.on([a, b], out),
-                [a, b, c] => self.on([a, b, c], out),
-                [a, b, c, d] => self.on([a, b, c, d], out),
-                _ => {}
+        for (some, out) in self.segments.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER * SEGMENT)) {
+            // Where there are fewer, the first is treated again and again.
+            let segments = std::array::from_fn(|n| *some.get(n).unwrap_or(&some[0]));
+            let sums = self.on(segments);
+            for (out, sum) in out.chunks_exact_mut(SEGMENT).zip(&sums) {
+                out.copy_from_slice(sum);
             }
         }
     }
@@ -194,24 +228,35 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> NullaryFnOnce for Def
 
 impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
     #[inline(always)]
-    fn on<const N: usize>(&self, firsts: [i32; N], out: &mut [f64]) {
+    fn on(&self, segments: [CellIndex; TOGETHER]) -> Sums {
         let middle = self.pairs.reach as i32 - 1;
-        let mut sums = [[0.0_f64; SEGMENT]; N];
+        let mut sums = Sums::default();
         for run in self.runs {
-            let pair = self.pairs.pair(self.row, run.row);
             let pressure = &self.pressure[run.at..run.at + run.length];
-            for (k, &p) in pressure.iter().enumerate() {
-                let from = run.first + k as i32;
-                for (sum, first) in sums.iter_mut().zip(firsts) {
-                    accumulate(sum, pair, middle + first - from, p);
-                    if self.mirror_x {
-                        accumulate(sum, pair, middle + first + from + 1, p);
+            // What the cells of a segment feel of the run's, from the difference of columns `start` on.
+            let lines = |start: &dyn Fn(i32) -> i32| {
+                let line = |n: usize| {
+                    let CellIndex { row, column } = segments[n];
+                    let start = (middle + start(column)) as usize;
+                    let line = self.pairs.pair(row, run.row).get(start..start + run.length + SEGMENT - 1);
+                    line.unwrap_or(&[]).windows(SEGMENT)
+                };
+                [line(0), line(1), line(2), line(3)]
+            };
+            let last = run.first + run.length as i32 - 1;
+            let [a, b, c, d] = lines(&|column| column - last);
+            accumulate(&mut sums, pressure, [a.rev(), b.rev(), c.rev(), d.rev()]);
+            if self.mirror_x {
+                accumulate(&mut sums, pressure, lines(&|column| column + run.first + 1));
+            }
+            for edge in self.edges.clone() {
+                for (k, &p) in pressure.iter().enumerate() {
+                    let source = CellIndex { row: run.row, column: run.first + k as i32 };
+                    if !edge.includes(source.column) {
+                        continue;
                     }
-                }
-                for edge in self.edges.clone().filter(|edge| edge.includes(from)) {
-                    let source = CellIndex { row: run.row, column: from };
-                    for (sum, first) in sums.iter_mut().zip(firsts) {
-                        let image = edge.on(CellIndex { row: self.row, column: first }, SEGMENT, source);
+                    for (sum, &segment) in sums.iter_mut().zip(&segments) {
+                        let image = edge.on(segment, SEGMENT, source);
                         for (sum, image) in sum[image.skip..].iter_mut().zip(image.values) {
                             *sum = image.mul_add(p, *sum);
                         }
@@ -219,18 +264,22 @@ impl<'e, I: Image + 'e, E: Iterator<Item = &'e I> + Clone> Deflect<'_, E> {
                 }
             }
         }
-        for (out, sum) in out.chunks_exact_mut(SEGMENT).zip(&sums) {
-            out.copy_from_slice(sum);
-        }
+        sums
     }
 }
 
+/// Adds the products of pressures with what the segments feel of each.
 #[inline(always)]
-fn accumulate(sum: &mut [f64; SEGMENT], pair: &[f64], start: i32, p: f64) {
-    // Cells of a segment beyond the table are nobody's: they stay as they are.
-    if let Some(k) = pair.get(start as usize..start as usize + SEGMENT) {
-        for l in 0..SEGMENT {
-            sum[l] = k[l].mul_add(p, sum[l]);
+fn accumulate<'a>(sums: &mut Sums, pressure: &[f64], felt: [impl Iterator<Item = &'a [f64]>; TOGETHER]) {
+    let mut sum = *sums;
+    let [a, b, c, d] = felt;
+    for ((((&p, a), b), c), d) in pressure.iter().zip(a).zip(b).zip(c).zip(d) {
+        for (sum, line) in sum.iter_mut().zip([a, b, c, d]) {
+            let line: [f64; SEGMENT] = line.first_chunk().copied().unwrap_or_default();
+            for l in 0..SEGMENT {
+                sum[l] = line[l].mul_add(p, sum[l]);
+            }
         }
     }
+    *sums = sum;
 }
