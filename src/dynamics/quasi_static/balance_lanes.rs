@@ -4,9 +4,9 @@
 //! ```text
 //! R(u) = Q_i(δ_i(u)) n_r − Q_o(u) + B = 0,   δ_i = −G − u − p − …,   B = m (g·e_r + (R_o − r) ω²)
 //! ```
-//! with the names of [`crate::dynamics::contacts::contact_lanes`]. From the path that is expected, which mostly is right
-//! to 1e-10 m, Newton's method takes two steps with δ_i on its tangent: δ_i is curved by n_t²/|q| only, so that one gap
-//! is enough. Where that does not settle, it goes on within a bracket, halving where a step would leave it: R falls
+//! with the names of [`crate::dynamics::contacts::contact_lanes`]. From the path that is expected, mostly right to
+//! 1e-10 m, Newton's method takes two steps with δ_i on its tangent: δ_i is curved by n_t²/|q| only, so that one gap is
+//! enough. Where that does not settle, it goes on within a bracket, halving where a step would leave it: R falls
 //! with u and has its root between the raceways' touching paths, widened on the side to which B pushes by the approach
 //! under B; that of a contact of constant K is below (|B|/K)^(1/4) metres. An element that has settled stays where it
 //! is while others of its register go on, so that the registers' width changes no bit.
