@@ -2,6 +2,7 @@
 
 mod advance;
 mod failing;
+mod following;
 mod kernels;
 pub mod landing;
 pub mod methods;
