@@ -1,5 +1,5 @@
 //! Sensors that a step moves on exactly, beside the method that integrates all else
-//! ([`FollowedSensor`](crate::dynamics::parameters::FollowedSensor)).
+//! ([`FollowedSensor`]).
 //!
 //! The method is given derivatives with every sensor held against the outer ring. What the equations are asked at is
 //! the state with sensors where they are by then.

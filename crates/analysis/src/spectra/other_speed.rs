@@ -11,8 +11,8 @@
 //! itself. They are looked at where the shaft would turn if the comb were another kind's. On recorded machines they are
 //! 3.4 to 10 nepers high at the speed of the shaft, 0.5 to 7 more than at those other speeds.
 //!
-//! **With which shaft do the passages' strengths repeat?** That is asked if these lines decide nothing, of the two
-//! raceways ([`Strengths`]). Those over a spall of the inner one do, as it passes through the load zone once a turn.
+//! **With which shaft do the passages' strengths repeat?** That is asked if these lines decide nothing ([`Strengths`]).
+//! A spall of the inner raceway passes through the load zone once a turn of the shaft, an element's once of the cage.
 
 use super::combs::{Comb, Combs, SLIP};
 use super::fault::{EXISTS, Fault};
@@ -32,13 +32,13 @@ const MISSING: f64 = 0.2;
 /// Times the named comb's share from which one elsewhere is stronger: at the speed of a recording 0.14 to 1.2, at other
 /// speeds up to 6.
 const STRONGER: f64 = 2.0;
-/// Share of the strengths' variance by which the shaft of one raceway must explain more than that of the other. Of
-/// pieces of 1 s recorded over spalls of the inner raceway, which other lines do not decide, its shaft explains 0.28 to
-/// 0.64 and that of the outer one at most 0.08.
-const PLAINLY: f64 = 0.2;
-/// Share of their variance from which strengths repeat with the inner raceway's shaft: over spalls of the outer one it is
-/// at most 0.06.
+/// Share of their variance from which strengths repeat with something, and how many times what explains less is
+/// excluded. Of pieces of 1 s recorded over spalls of the inner raceway, which other lines do not decide, its shaft
+/// explains 0.29 to 0.64 and that of the outer one nothing; of an element's the cage 0.3 and a shaft half of that.
 const REPEATS: f64 = 0.25;
+const PLAINLY: f64 = 2.0;
+/// Share from which the shaft of the inner raceway is not excluded: over spalls of the outer one it is at most 0.06.
+const EXCLUDED: f64 = 0.2;
 
 /// What confirms the stated speed, in words, if anything does.
 ///
@@ -78,32 +78,42 @@ pub(crate) fn check(
     if combs.elsewhere.share >= strongest * comb.share {
         return Err(stronger(combs, comb, nominal, speed) + ", and no lines of the shaft confirm the speed");
     }
-    let orders = match fault {
-        Fault::Outer => [nominal.bpfo, nominal.bpfi].map(|own| own / speed),
-        Fault::Inner => [nominal.bpfi, nominal.bpfo].map(|own| own / speed),
-        _ => return Ok(None),
-    };
     let envelope = spectrum.squared_envelope(comb.band);
+    check_strengths((&envelope, rate), (fault, comb), nominal, speed)
+        .map_err(|why| format!("{why}, and no lines of the shaft confirm the speed; it suits {}", in_words(&others)))
+}
+
+/// Whether the passages' strengths repeat with what a defect of this kind turns with, and not with what another does.
+fn check_strengths(
+    (envelope, rate): (&[f64], f64),
+    (fault, comb): (Fault, &Comb),
+    nominal: Frequencies,
+    speed: f64,
+) -> Result<Option<String>, String> {
     let elements = ((nominal.bpfo + nominal.bpfi) / speed).round() as usize;
-    let suits = in_words(&others);
-    let strengths = Strengths::of(&envelope, rate, comb.frequency, elements)
-        .map_err(|why| format!("{why}, no lines of the shaft confirm the speed, and it suits {suits}"))?;
-    let [own, other] = orders.map(|order| strengths.share(order));
+    let strengths = Strengths::of(envelope, rate, comb.frequency, elements)?;
+    // The passages' order of it.
+    let [outer, inner, element] = [nominal.bpfo / speed, nominal.bpfi / speed, 2.0 * nominal.bsf / nominal.ftf];
+    let (order, rivals) = match fault {
+        Fault::Outer => (outer, [inner, inner]),
+        Fault::Inner => (inner, [outer, outer]),
+        _ => (element, [outer, inner]),
+    };
+    let own = strengths.share(order);
+    let [first, second] = rivals.map(|order| (strengths.share(order), comb.frequency / order));
+    let (other, rival) = if second.0 > first.0 { second } else { first };
     let shares = format!(
-        "{:.0} % of the variance of the passages' strengths repeats with a shaft at the stated speed, {:.0} % with one \
-         at {:.2} Hz",
+        "{:.0} % of the variance of the passages' strengths repeats with the {} at the stated speed, {:.0} % with a \
+         shaft at {rival:.2} Hz",
         100.0 * own,
+        if fault == Fault::Element { "cage" } else { "shaft" },
         100.0 * other,
-        comb.frequency / orders[1]
     );
-    if own >= other + PLAINLY {
+    if own >= REPEATS.max(PLAINLY * other) {
         return Ok(Some(shares));
     }
-    // A spall of the outer raceway need not feel the shaft, one of the inner raceway does.
-    if fault == Fault::Outer && other < REPEATS.min(own + PLAINLY) {
-        return Ok(None);
-    }
-    Err(format!("{shares}, and no lines of the shaft confirm the speed; it suits {suits}"))
+    // A spall of the outer raceway need not feel the shaft, one of the inner raceway does, and an element's the cage.
+    if fault == Fault::Outer && other < EXCLUDED { Ok(None) } else { Err(shares) }
 }
 
 /// Whether the named comb's lines are all there, and none between them.
