@@ -164,6 +164,9 @@ fn check_fault(measured: &Measured) -> Result<(), Unresolved> {
         }
         (Fault::None, None) => Err(Unresolved::NoPattern(combs.described(), 100.0 * EXISTS)),
         (Fault::Element, _) => Err(Unresolved::OfElement(combs.described())),
+        (Fault::Undecided, _) if combs.is_too_short() => {
+            Err(Unresolved::TooFewTurns(measured.speed * measured.duration()))
+        }
         (Fault::Undecided, _) => Err(Unresolved::TwoKinds(combs.described())),
         (Fault::Inner, _) if measured.modulation < MODULATED => {
             Err(Unresolved::NoLoadZone(measured.modulation, MODULATED))

@@ -196,6 +196,11 @@ impl Measured {
         })
     }
 
+    /// Of what is used of the recording (s).
+    pub(super) fn duration(&self) -> f64 {
+        self.signal.len() as f64 / self.rate
+    }
+
     /// Element travel per second (degrees).
     pub fn travel(&self) -> f64 {
         self.spacing * self.pass_frequency

@@ -10,6 +10,12 @@ pub enum Unresolved {
          envelope are {0}, limit {1:.0} %"
     )]
     NoPattern(String, f64),
+    /// None could be seen.
+    #[error(
+        "too short to tell whether there is a fault: in {0:.1} turns of the shaft no line of a comb stands apart from the \
+         shaft's own; give five turns or more"
+    )]
+    TooFewTurns(f64),
     /// As a bearing without a spall.
     #[error("it sounds as much like the scene's bearing without a spall as like any with one: similarity {0:.3}")]
     Healthy(f64),

@@ -13,7 +13,7 @@ pub enum Fault {
     Inner,
     /// A rolling element.
     Element,
-    /// Two kinds repeat about as much, or recordings of one bearing differ.
+    /// Two kinds repeat about as much, recordings of one bearing differ, or they are too short to tell.
     Undecided,
     /// Nothing of the bearing repeats, or nothing is more similar to the recording than the scene's bearing without a
     /// spall.
@@ -41,7 +41,7 @@ pub enum Grade {
     Clear,
     /// One kind leads, but less plainly.
     Likely,
-    /// Something of the bearing repeats, but no kind leads; or another speed would suit it as well.
+    /// Something of the bearing repeats, but no kind leads; another speed would suit it as well; or it is too short.
     Possible,
     /// No fault found.
     None,
@@ -92,6 +92,13 @@ const LEADS: f64 = 2.5;
 /// Share and lead of a [`Grade::Clear`] kind.
 const CLEAR: [f64; 2] = [0.1, 5.0];
 
+impl Comb {
+    /// Share from which it is a fault's.
+    fn limit(&self) -> f64 {
+        EXISTS.max(ABOVE_NOISE * self.noise)
+    }
+}
+
 impl Combs {
     fn all(&self) -> [(Fault, &Comb); 3] {
         [(Fault::Outer, &self.outer), (Fault::Inner, &self.inner), (Fault::Element, &self.element)]
@@ -104,10 +111,18 @@ impl Combs {
         [all[0], all[1]]
     }
 
+    /// Whether the recording is too short to tell anything, four turns and less: all windows of its combs are so wide
+    /// that they hold lines of the shaft.
+    pub(crate) fn is_too_short(&self) -> bool {
+        self.all().iter().all(|(_, comb)| comb.noise <= 0.0)
+    }
+
     /// The kind that the recording looks like.
     pub fn fault(&self) -> Fault {
         let [(fault, leader), (_, rival)] = self.leader_and_rival();
-        if leader.share < EXISTS.max(ABOVE_NOISE * leader.noise) {
+        if self.is_too_short() {
+            Fault::Undecided
+        } else if leader.share < leader.limit() {
             Fault::None
         } else if leader.share < LEADS * rival.alone {
             Fault::Undecided
@@ -164,7 +179,7 @@ impl Combs {
         let at = format!("the comb of {name} at {:.2} Hz", leader.frequency);
         let of_variance =
             format!("{percent:.1} % of the variance of the log envelope, best seen in {low:.1} to {high:.1} kHz");
-        let limit = 100.0 * EXISTS.max(ABOVE_NOISE * leader.noise);
+        let limit = 100.0 * leader.limit();
         let beside = format!(
             "{} has {:.1} % at {:.2} Hz that is not explained by it, {:.1} times less",
             other.name(),
@@ -174,7 +189,7 @@ impl Combs {
         );
         let exists = format!("{at} holds {of_variance}, limit {limit:.1} %");
         let pairs = [
-            (leader.share >= EXISTS.max(ABOVE_NOISE * leader.noise), exists),
+            (leader.share >= leader.limit(), exists),
             (leader.share >= LEADS * rival.alone, format!("{beside}, limit {LEADS}")),
         ];
         let [mut speaks_for, mut against] = [Vec::new(), Vec::new()];

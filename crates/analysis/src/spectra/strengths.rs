@@ -145,10 +145,10 @@ mod tests {
 
     #[test]
     fn strengths_repeat_with_the_shaft_that_makes_them_and_with_no_other() {
-        let [own, other] = shares(0.5);
-        assert!(own > 0.7 && other < 0.25, "{own} {other}");
+        let [own, other] = shares(1.0);
+        assert!(own > 0.6 && other < 0.2, "{own} {other}");
         let [none, other] = shares(0.0);
-        assert!(none < 0.25 && other < 0.25, "{none} {other}");
+        assert!(none < 0.2 && other < 0.2, "{none} {other}");
     }
 
     #[test]
