@@ -7,10 +7,9 @@ mod measured;
 
 use crate::counting;
 use crate::support::{Named, shipped, shipped_as_it_is};
-use brinell::scene::{ContactLaw, ElementInertia, Ring, Scene, Sensor};
+use brinell::scene::{ContactLaw, ElementInertia, Ring, Scene};
 use brinell::simulation::Method;
 use brinell_analysis::modes::{Assembly, Mode};
-use std::f64::consts::FRAC_PI_2;
 
 fn without_inertia(mut scene: Scene) -> Scene {
     scene.bearing.element_inertia = ElementInertia::None;
@@ -201,32 +200,6 @@ fn elements_without_inertia_are_no_states_and_leave_nothing_to_the_implicit_meth
     bearing.0.set_method(Method::Rodas);
     bearing.run(1e-3, 20);
     assert_eq!(bearing.0.step_counts().implicit, 0);
-}
-
-#[test]
-fn sensors_do_not_limit_steps_and_measure_what_short_steps_show() {
-    let mut scene = without_inertia(shipped("6205-healthy"));
-    let first = scene.sensors[0].clone();
-    scene.sensors.push(Sensor { name: "across".to_owned(), direction: first.direction + FRAC_PI_2, ..first });
-    let names = ["housing.ax", "housing.ay", "sensor[1].acceleration", "sensor[2].acceleration"];
-    let run = |tolerance: f64| {
-        let mut bearing = Named::started(Scene { tolerance, ..scene.clone() });
-        let mut found = Vec::new();
-        for _ in 0..100 {
-            bearing.run(1e-3, 1);
-            found.push(names.map(|name| bearing.get(name)));
-        }
-        (found, bearing.0.step_counts().all)
-    };
-    // 15 kHz are stable in steps of 33 µs.
-    let ((loose, count), (exact, _)) = (run(1e-5), run(1e-9));
-    assert!(count < 1500, "{count}");
-    for k in 0..names.len() {
-        let rms = |of: &dyn Fn(usize) -> f64| ((0..exact.len()).map(|i| of(i) * of(i)).sum::<f64>() / 100.0).sqrt();
-        let (miss, size) = (rms(&|i| loose[i][k] - exact[i][k]), rms(&|i| exact[i][k]));
-        // In steps of 33 µs, sensors ring with a tenth of this.
-        assert!(miss < 1e-2 * size, "{}: {miss:e} of {size:e}", names[k]);
-    }
 }
 
 #[test]

@@ -104,14 +104,6 @@ impl<T: Number> InnerGap<T> {
         (n_r * q_t - n_t * q_r) / self.distance
     }
 
-    /// The same after a small motion of q (m), to first order.
-    #[inline(always)]
-    pub(in crate::dynamics) fn moved(&self, q: [T; 2]) -> Self {
-        let ([n_r, n_t], turn, closer) = (self.n, self.turning(q), self.closing(q));
-        let n = [n_r - n_t * turn, n_t + n_r * turn];
-        Self { approach: self.approach + closer, n, distance: self.distance - closer }
-    }
-
     /// Parts along and counter-clockwise of e_r of a force along and counter-clockwise of n.
     #[inline(always)]
     pub(in crate::dynamics) fn turned(&self, [along, across]: [T; 2]) -> [T; 2] {

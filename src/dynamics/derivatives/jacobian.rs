@@ -17,8 +17,8 @@ use super::fastest::{BodyIndices, Fastest};
 use super::spatial_jacobian::SpatialJacobian;
 use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized, Shortcuts};
 use crate::dynamics::parameters::{
-    BODIES, Bodies, BodyMatrix, Cells, Excitation, FollowedSensor, FramedKinematics, Kinematics, Layout, Model,
-    PathMotion, RingState, prescribed_rate,
+    BODIES, Bodies, BodyMatrix, Cells, Excitation, FramedKinematics, Kinematics, Layout, Model, PathMotion, RingState,
+    prescribed_rate,
 };
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::lanes::row::Row;
@@ -61,10 +61,6 @@ pub struct Jacobian {
     pub body_indices: [Option<BodyIndices>; BODIES],
     /// Where the elements' velocities begin in the state.
     pub radial_velocity: usize,
-    /// Whether steps move sensors on exactly, so that those do not limit them.
-    pub follows_sensors: bool,
-    /// What such sensors make of the outer ring's own acceleration by its place and velocity, along x and y.
-    of_sensors: [[f64; 2]; 2],
     /// That of rings in space, in place of all but the derivative by time.
     pub space: Option<Box<SpatialJacobian>>,
 }
@@ -81,8 +77,6 @@ impl Jacobian {
             by_time: Row::zeros(model.layout.len),
             body_indices: body_indices(&model.layout),
             radial_velocity: model.layout.radial_velocity,
-            follows_sensors: false,
-            of_sensors: on_ring(&model.followed),
             space: model.space.as_ref().map(|space| Box::new(SpatialJacobian::new(model, space))),
         }
     }
@@ -97,8 +91,6 @@ impl Jacobian {
             by_time: Row::zeros(0),
             body_indices: [None; BODIES],
             radial_velocity: 1,
-            follows_sensors: false,
-            of_sensors: [[0.0; 2]; 2],
             space: None,
         }
     }
@@ -116,11 +108,8 @@ impl Jacobian {
         for block in &self.elements {
             fastest.consider(block.by_path, block.by_velocity);
         }
-        let bodies = if self.follows_sensors { 0..4 } else { 0..BODIES };
-        for i in bodies.filter(|&i| self.body_indices[i].is_some()) {
-            let is_held = self.follows_sensors && i >= 2;
-            let [by_position, by_velocity] = if is_held { self.of_sensors[i - 2] } else { [0.0; 2] };
-            fastest.consider(self.by_own_position(i) - by_position, self.by_velocity[(i, i)] - by_velocity);
+        for i in (0..BODIES).filter(|&i| self.body_indices[i].is_some()) {
+            fastest.consider(self.by_own_position(i), self.by_velocity[(i, i)]);
         }
         fastest
     }
@@ -183,14 +172,6 @@ impl Default for ElementBlock {
             rings_by_velocity: rings,
         }
     }
-}
-
-/// The sum over sensors of what each makes of the outer ring's own acceleration.
-fn on_ring(sensors: &[FollowedSensor]) -> [[f64; 2]; 2] {
-    let add = |sum: [[f64; 2]; 2], part: [[f64; 2]; 2]| {
-        [0, 1].map(|axis: usize| [0, 1].map(|by: usize| sum[axis][by] + part[axis][by]))
-    };
-    sensors.iter().map(FollowedSensor::on_ring).fold([[0.0; 2]; 2], add)
 }
 
 /// What all elements share while the Jacobian is put together.

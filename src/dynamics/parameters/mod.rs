@@ -22,7 +22,7 @@ pub use spatial::{COORDINATES, RINGS, RingInSpace, SPATIAL_BODIES, Space, Spatia
 pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorModes, SensorSupport, Support, Supports};
 
 pub(crate) use kinematics::Stage;
-pub(crate) use supports::{FollowedSensor, Forcing, MOST_FOLLOWED, StepEnds, Swing};
+pub(crate) use supports::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
 pub(in crate::dynamics) use film::{FilmsNow, OilFilms};

@@ -8,7 +8,7 @@ use super::kinematics::{CageState, FramedKinematics};
 use super::layout::Layout;
 use super::raceway::{Cells, DefectiveElement, Defects, Raceway};
 use super::spatial::Space;
-use super::supports::{FollowedSensor, SensorModes, Supports};
+use super::supports::{SensorModes, Supports};
 use crate::contact::law::{CompliantContact, smooth_laws};
 use crate::contact::near_defect::{LoveSolvers, NearDefect};
 use crate::geometry::kinematics::Ratios;
@@ -49,8 +49,6 @@ pub struct Model {
     pub supports: Supports,
     /// What lies between the outer ring and the sensors.
     pub sensor_modes: SensorModes,
-    /// The sensors, where steps move them on exactly.
-    pub(crate) followed: Vec<FollowedSensor>,
     /// Speeds of cage and elements per speed of the rings.
     pub ratios: Ratios,
     /// Layout of the state vector.
@@ -124,7 +122,6 @@ impl Model {
             housing: scene.housing,
             supports: Supports::new(scene),
             sensor_modes: SensorModes::new(scene, layout.sensors),
-            followed: FollowedSensor::all(scene, &layout),
             ratios: Ratios::new(bearing, scene.cage.slip, scene.cage.spin_slip),
             layout,
             may_have_inner_defects: scene.has_defect_inside() || scene.is_wavy_inside(),

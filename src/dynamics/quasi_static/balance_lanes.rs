@@ -4,27 +4,24 @@
 //! ```text
 //! R(u) = Q_i(δ_i(u)) n_r − Q_o(u) + B = 0,   δ_i = −G − u − p − …,   B = m (g·e_r + (R_o − r) ω²)
 //! ```
-//! with the names of [`crate::dynamics::contacts::contact_lanes`]. From the path that is expected, mostly right to
-//! 1e-10 m, Newton's method takes two steps with δ_i on its tangent: δ_i is curved by n_t²/|q| only, so that one gap is
-//! enough. Where that does not settle, it goes on within a bracket, halving where a step would leave it: R falls
-//! with u and has its root between the raceways' touching paths, widened on the side to which B pushes by the approach
-//! under B; that of a contact of constant K is below (|B|/K)^(1/4) metres. An element that has settled stays where it
-//! is while others of its register go on, so that the registers' width changes no bit.
+//! with the names of [`crate::dynamics::contacts::contact_lanes`]. R falls with u and has its root between the
+//! raceways' touching paths, widened on the side to which B pushes by the approach under B; that of a contact of
+//! constant K is below (|B|/K)^(1/4) metres. Newton's method from the path last known, halving where it would leave the
+//! bracket. An element that has settled stays where it is while others of its register go on, so that the registers'
+//! width changes no bit.
 //!
 //! A lane without an element, or with one that is looked for alone, has constants 0 and no force.
 
 use crate::contact::law::{DampedLaw, Elastic, PUSHING_LENGTH, Point};
 use crate::dynamics::contacts::{Forces, InnerGap, Record, Sums, dot, radial};
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
-use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, stay_a_branch};
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of};
 use crate::numerics::plane::Vector;
 use crate::scene::Damping;
 
 /// Newton's step (m) after which the next is below rounding: what is left is a quarter of its square over the approach,
 /// 5e-20 m under load; under an element's own weight, where the approach is 1e-8 m, it is 1e-10 N.
 const SETTLED: f64 = 1e-12;
-/// How far a gap's tangent is followed (m): there it is off by n_t² (this)²/2|q|, 1e-20 m.
-const ON_TANGENT: f64 = 1e-8;
 /// Most iterations: halving a millimetre down to the last digit, and some of Newton's.
 const MOST_ITERATIONS: usize = 100;
 /// Least stiffness (N/m): for an element that touches nothing, where Newton's step is then beyond any bracket.
@@ -181,14 +178,7 @@ impl<'a, E: Elastic> Shared<'a, E> {
     /// The inner contact's gap at a path.
     #[inline(always)]
     fn gap<S: Wide>(&self, at: &ElementLanes<S>, u: Lanes<S>) -> InnerGap<Lanes<S>> {
-        let of = |series| InnerGap::of(at.radius + u, u, at.offset, at.clearance, series);
-        let gap = if self.series {
-            of(true)
-        } else {
-            // Without this both would be computed.
-            stay_a_branch();
-            of(false)
-        };
+        let gap = InnerGap::of(at.radius + u, u, at.offset, at.clearance, self.series);
         InnerGap { approach: gap.approach * at.on, ..gap }
     }
 
@@ -204,55 +194,36 @@ impl<'a, E: Elastic> Shared<'a, E> {
     #[inline(always)]
     fn balanced<S: Wide>(&self, at: &ElementLanes<S>, [u, w]: [Lanes<S>; 2], ahead: Option<f64>) -> Balanced<S> {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        let (zero, settled) = (number(0.0), number(SETTLED));
+        let zero = number(0.0);
         let guess = ahead.map_or(u, |ahead| u + number(ahead) * (w - at.along)) * at.on;
-        // What nothing pushes inwards is no further in than the outer raceway.
-        let guess = at.body.if_less(zero, guess, guess.or_zero());
-        let (mut u, mut bracket, mut iteration) = (guess, None, 0);
+        let (mut low, mut high) = self.bracket(at, guess);
+        let mut u = guess.at_least(low).at_most(high);
+        let (settled, mut iteration) = (number(SETTLED), 0);
         loop {
             iteration += 1;
             let gap = self.gap(at, u);
-            let first = self.on_path(at, u, gap, zero);
-            let moved = first.newton(at);
-            let second = self.on_path(at, u, gap, moved);
-            let change = second.newton(at);
-            let open = (change.abs() - settled).at_least(moved.abs() - number(ON_TANGENT));
-            let mut most = [-1.0; QUAD];
-            open.largest_to(&mut most);
-            if largest_of(most) <= 0.0 || iteration == MOST_ITERATIONS {
-                let unknown = zero.if_less(open, number(f64::NAN), zero);
-                let [inner, outer] = second.forces;
-                let [k_i, k_o] = second.stiffness;
-                let forces = [inner - k_i * gap.n[0] * change, outer + k_o * change];
-                let forces = forces.map(|force| force.or_zero() + unknown);
-                let gap = gap.moved([moved + change, zero]);
-                return Balanced { path: u + moved + change, path_rate: zero, gap, forces, ..second };
+            let n_r = gap.n[0];
+            let [inner, k_i] = self.contact(at.constants[0], gap.approach);
+            let [outer, k_o] = self.contact(at.constants[1], u);
+            let force = inner * n_r - outer + at.body;
+            let (along, slope) = (k_i * n_r, k_i * (n_r * n_r) + k_o);
+            let newton = u + force / slope.at_least(number(NO_STIFFNESS));
+            let (step, change) = ((newton - u).abs(), newton - u);
+            let mut open = [-1.0; QUAD];
+            (step - settled).largest_to(&mut open);
+            if largest_of(open) <= 0.0 || iteration == MOST_ITERATIONS {
+                let unknown = settled.if_less(step, number(f64::NAN), zero);
+                let stiffness = [k_i, k_o];
+                let forces = [(inner - along * change).or_zero() + unknown, (outer + k_o * change).or_zero() + unknown];
+                let gap = InnerGap { approach: gap.approach - n_r * change, ..gap };
+                return Balanced { path: newton, path_rate: zero, gap, forces, stiffness };
             }
-            let (low, high) = bracket.unwrap_or_else(|| self.bracket(at, guess));
-            let force = first.force(at);
-            let low = zero.if_less(force, low.at_least(u), low);
-            let high = zero.if_less(force, high, high.at_most(u));
-            let (middle, newton) = (number(0.5) * (low + high), u + moved + change);
+            low = zero.if_less(force, u, low);
+            high = zero.if_less(force, high, u);
+            let middle = number(0.5) * (low + high);
             let next = low.if_less(newton, newton.if_less(high, newton, middle), middle);
-            u = zero.if_less(open, next, u);
-            bracket = Some((low, high));
+            u = settled.if_less(step, next, u);
         }
-    }
-
-    /// Contacts at `moved` (m) beyond the path of this gap, on its tangent.
-    #[inline(always)]
-    fn on_path<S: Wide>(
-        &self,
-        at: &ElementLanes<S>,
-        path: Lanes<S>,
-        gap: InnerGap<Lanes<S>>,
-        moved: Lanes<S>,
-    ) -> Balanced<S> {
-        let path = path + moved;
-        let gap = InnerGap { approach: gap.approach - gap.n[0] * moved, ..gap };
-        let [inner, k_i] = self.contact(at.constants[0], gap.approach);
-        let [outer, k_o] = self.contact(at.constants[1], path);
-        Balanced { path, path_rate: at.along, gap, forces: [inner, outer], stiffness: [k_i, k_o] }
     }
 
     /// Between which paths the balance is.
@@ -269,41 +240,25 @@ impl<'a, E: Elastic> Shared<'a, E> {
 }
 
 impl<S: Wide> Balanced<S> {
-    /// R (N)
-    #[inline(always)]
-    fn force(&self, at: &ElementLanes<S>) -> Lanes<S> {
-        self.forces[0] * self.gap.n[0] - self.forces[1] + at.body
-    }
-
-    /// Newton's step (m). It neglects how n turns, which is 1e-10 of the stiffness.
-    #[inline(always)]
-    fn newton(&self, at: &ElementLanes<S>) -> Lanes<S> {
-        self.force(at) / self.contacts().at_least(Lanes::splat(at.simd, NO_STIFFNESS))
-    }
-
-    /// Radial stiffness of both contacts (N/m).
-    #[inline(always)]
-    fn contacts(&self) -> Lanes<S> {
-        let n_r = self.gap.n[0];
-        self.stiffness[0] * (n_r * n_r) + self.stiffness[1]
-    }
-
     /// Rates, and what damping changes of the forces.
     #[inline(always)]
     fn damped<E: Elastic>(self, shared: &Shared<E>, at: &ElementLanes<S>) -> Self {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        let Self { path, gap, forces: [inner, outer], stiffness: [k_i, k_o], .. } = self;
-        let ([n_r, n_t], none, contacts) = (gap.n, number(NO_STIFFNESS), self.contacts());
+        let Self { path, gap: InnerGap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
+        let [k_i, k_o] = self.stiffness;
+        let none = number(NO_STIFFNESS);
         let [drift, across] = at.drift;
         let around = across + (at.radius + path) * at.speed;
-        let q_rate = [drift, around];
-        let push = k_i * (gap.closing(q_rate) * n_r) - inner * (n_t * (gap.turning(q_rate) - at.speed)) + at.body_rate;
-        let path_rate = push / (contacts - inner * (n_t * n_t) / gap.distance).at_least(none);
+        let opening = n_r * drift + n_t * around;
+        let turning = n_t * (at.speed - (n_r * around - n_t * drift) / distance);
+        let push = inner * turning - k_i * (n_r * opening) + at.body_rate;
+        let contacts = k_i * (n_r * n_r) + k_o;
+        let path_rate = push / (contacts - inner * (n_t * n_t) / distance).at_least(none);
         // Where nothing touches there is no rate.
         let path_rate = none.if_less(contacts, path_rate, number(0.0));
 
         let law = DampedLaw::new(shared.damping, shared.elastic, number);
-        let closing = gap.closing([drift + path_rate, around]);
+        let closing = -(opening + n_r * path_rate);
         let d_i = law.damping_of(inner, k_i, closing).at_least(-inner);
         let d_o = law.damping_of(outer, k_o, path_rate).at_least(-outer);
         let change = (d_o * (k_i * (n_r * n_r)) + d_i * (n_r * k_o)) / contacts.at_least(none);

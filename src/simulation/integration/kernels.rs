@@ -1,6 +1,5 @@
 //! What runs in wide registers within a step: all stages of a trial, and a probe of the step tried last.
 
-use super::following::{Following, place_within};
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
 use crate::dynamics::contacts::{Forces, RingForces};
@@ -79,18 +78,10 @@ fn explicit_step<S: Wide>(
     let weights = pair.weights();
     let sum = workspace.first_force.map(|force| weights[0] * force);
     let cages = excitation.cage_after(from, pair.nodes().map(|node| node * h));
-    let Workspace {
-        buffers, forces, scratch, follows, weighted_force, largest_error: largest, weights: lengths, ..
-    } = workspace;
-    let mut following =
-        follows.then(|| Following::begin(model, pair.nodes(), h, &progress.state, &mut buffers.first, scratch));
-    let mut stages = Stages { model, excitation, cages, weights, forces, sum, following: following.as_mut() };
-    pair.try_step(simd, buffers, &progress.state, h, &mut stages);
-    *weighted_force = stages.sum;
-    *largest = largest_error(simd, buffers, pair.error_parts(), h, lengths);
-    if let Some(following) = following {
-        *largest = following.finish(buffers, &progress.state, *largest);
-    }
+    let mut stages = Stages { model, excitation, cages, weights, forces: &mut workspace.forces, sum };
+    pair.try_step(simd, &mut workspace.buffers, &progress.state, h, &mut stages);
+    workspace.weighted_force = stages.sum;
+    workspace.largest_error = largest_error(simd, &workspace.buffers, pair.error_parts(), h, &workspace.weights);
 }
 
 #[inline(always)]
@@ -122,7 +113,7 @@ impl Kernel for Probe<'_> {
     fn run<S: Wide>(self, simd: S) {
         let Self { workspace, problem, span: Span { from, length: h }, share, progress } = self;
         let Problem { model, excitation } = problem;
-        let Workspace { buffers, forces, dense, pair, .. } = &mut *workspace;
+        let Workspace { buffers, forces, dense, scratch, pair, .. } = workspace;
         let cage = excitation.cage_at(from + share * h);
         match pair {
             _ if progress.choice.implicit => rodas::dense(simd, buffers, &progress.state, share, dense),
@@ -136,8 +127,6 @@ impl Kernel for Probe<'_> {
                 model.dense_output(simd, excitation, [start, end], between, pieces, dense);
             }
         }
-        place_within(workspace, model, self.span, share, &progress.state);
-        let Workspace { forces, dense, scratch, .. } = workspace;
         let stage = Stage { excitation, cage: &cage, state: dense, ahead: None };
         model.derivative_on::<S, true>(simd, stage, scratch, forces);
         forces.settle(model, dense);
@@ -167,7 +156,7 @@ impl rodas::System for System<'_> {
 }
 
 /// The equations of motion during one explicit step, and what the stages add up to.
-struct Stages<'a, 'b> {
+struct Stages<'a> {
     model: &'a Model,
     excitation: &'a Excitation,
     /// Those of the first stages; the last two are at the same time.
@@ -177,31 +166,18 @@ struct Stages<'a, 'b> {
     forces: &'a mut Forces,
     /// Sum of weight × ring force.
     sum: RingForces,
-    /// Sensors that are moved on exactly, if any.
-    following: Option<&'a mut Following<'b>>,
 }
 
-impl RightHandSide for Stages<'_, '_> {
+impl RightHandSide for Stages<'_> {
     #[inline(always)]
     fn evaluate<S: Wide>(&mut self, simd: S, stage: usize, state: &[f64], ahead: Option<f64>, out: &mut [f64]) {
         let (model, forces) = (self.model, &mut *self.forces);
         let (excitation, cage) = (self.excitation, &self.cages[stage.min(LAST - 1)]);
-        let state = match &mut self.following {
-            Some(following) => following.place(stage, ahead, state),
-            None => state,
-        };
         let at = Stage { excitation, cage, state, ahead };
         if stage == LAST {
-            model.derivative_on::<S, true>(simd, at, out, forces);
-        } else {
-            model.derivative_on::<S, false>(simd, at, out, forces);
+            return model.derivative_on::<S, true>(simd, at, out, forces);
         }
-        if let Some(following) = &mut self.following {
-            following.note(out);
-        }
-        if stage == LAST {
-            return;
-        }
+        model.derivative_on::<S, false>(simd, at, out, forces);
         // In the plane the rest is 0.
         let count = if model.space.is_some() { self.sum.len() } else { 4 };
         for (sum, force) in self.sum.iter_mut().zip(forces.rings).take(count) {

@@ -2,7 +2,6 @@
 
 mod advance;
 mod failing;
-mod following;
 mod kernels;
 pub mod landing;
 pub mod methods;

@@ -12,7 +12,6 @@
 
 use super::advance::Advance;
 use super::failing::{check_angles, check_rings, check_step, worst};
-use super::following;
 use super::kernels::{probe, try_step};
 use super::progress::Progress;
 use super::step_size::{factor_over_change, share_of, step_factor};
@@ -161,7 +160,6 @@ impl Stepper<'_> {
             Method::Rodas => progress.choice.implicit = true,
         }
         check_rings(*problem, 0.0, progress)?;
-        following::choose(workspace, problem.model, control.tolerance);
         match known {
             Some(known) => workspace.first_stage_is(known, *problem, progress),
             None => workspace.first_stage(*problem, 0.0, progress),

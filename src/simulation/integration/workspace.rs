@@ -81,8 +81,6 @@ pub struct Workspace {
     pub(super) buffers: StageBuffers,
     /// Which explicit method steps.
     pub(super) pair: ExplicitMethod,
-    /// Whether steps move sensors on exactly.
-    pub(super) follows: bool,
     pub(super) jacobian: Jacobian,
     /// The Jacobian belongs to the start of the step.
     pub(in crate::simulation) linearized: bool,
@@ -114,7 +112,6 @@ impl Workspace {
         Self {
             buffers: StageBuffers::new(model.layout.partition(), positions),
             pair: ExplicitMethod::default(),
-            follows: false,
             jacobian: Jacobian::new(model),
             linearized: false,
             arrow: Arrow::new(model),

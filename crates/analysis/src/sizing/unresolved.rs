@@ -12,8 +12,8 @@ pub enum Unresolved {
     NoPattern(String, f64),
     /// None could be seen.
     #[error(
-        "too short to tell whether there is a fault: in {0:.1} turns of the shaft no line of a comb stands apart from the \
-         shaft's own; give five turns or more"
+        "too short to tell whether there is a fault: in {0:.1} turns of the shaft no line of a comb stands apart from \
+         the shaft's own; give five turns or more"
     )]
     TooFewTurns(f64),
     /// As a bearing without a spall.

@@ -133,8 +133,8 @@ fn check_lines(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> 
     for (times, held) in [2.0, 3.0].into_iter().zip(combs.between_multiples) {
         if held < MISSING * comb.share {
             return Err(format!(
-                "all lines of the comb at {:.2} Hz with {:.1} % of the variance except {:.1} % are those of one at {:.2} \
-                 Hz, limit {MISSING} of all; it suits {}",
+                "all lines of the comb at {:.2} Hz with {:.1} % of the variance except {:.1} % are those of one at \
+                 {:.2} Hz, limit {MISSING} of all; it suits {}",
                 comb.frequency,
                 100.0 * comb.share,
                 100.0 * held,

@@ -12,13 +12,11 @@
 //!   F/m − (k x + c v)/m; a sensor's part is [`SensorSupport::force`] in both;
 //! - `Supports::ring_stiffnesses` for what is at rest, equilibrium and tangent: there only the rings' springs are left.
 
-mod followed_sensors;
 mod sensor_modes;
 
 pub use sensor_modes::SensorModes;
 
-pub(crate) use followed_sensors::{FollowedSensor, MOST_FOLLOWED, Swing};
-pub(crate) use sensor_modes::{Cubic as Forcing, StepEnds};
+pub(crate) use sensor_modes::StepEnds;
 
 use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};

@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 /// Terms of the power series: over a radian of a mode the next are below 1/20! = 4e-19.
 const TERMS: usize = 21;
 /// Acceleration of a sensor's body over a step, as a cubic in the share of the step.
-pub(crate) type Cubic = [f64; 4];
+type Cubic = [f64; 4];
 
 /// Modes between the outer ring and all sensors.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -196,12 +196,7 @@ impl Kernel for SideBySide<'_> {
 /// z and z' of modes of these frequencies (rad/s) and damping ratios moved on by `h` (s), under an acceleration that is
 /// a cubic in the share of that time.
 #[inline(always)]
-pub(super) fn follow<T: Number<Plain = T>>(
-    [frequency, damping_ratio]: [T; 2],
-    acceleration: [T; 4],
-    h: T,
-    z: [T; 2],
-) -> [T; 2] {
+fn follow<T: Number<Plain = T>>([frequency, damping_ratio]: [T; 2], acceleration: [T; 4], h: T, z: [T; 2]) -> [T; 2] {
     let number = |number: f64| h.plain(number);
     let turn = frequency * h;
     let (damping, spring) = (number(2.0) * damping_ratio * turn, turn * turn);
@@ -236,7 +231,7 @@ fn acceleration(ends: StepEnds, index: usize) -> Cubic {
 
 /// The cubic over a part of its step that begins at `from` and is `by` long, both as shares.
 #[inline(always)]
-pub(super) fn section<T: Number<Plain = T>>([a, b, c, d]: [T; 4], from: T, by: T) -> [T; 4] {
+fn section<T: Number<Plain = T>>([a, b, c, d]: [T; 4], from: T, by: T) -> [T; 4] {
     let (two, three) = (from.plain(2.0), from.plain(3.0));
     [
         a + from * (b + from * (c + from * d)),
