@@ -22,8 +22,8 @@ const MOST: usize = 256;
 const PARTS: usize = 24;
 /// Fewest passages, as a multiple of the numbers that are fitted to them.
 const TIMES: usize = 3;
-/// Root mean square about their mean (nepers of power) up to which strengths are even: over recorded spalls of the inner
-/// raceway they have 0.6 to 1.3, of the outer one 0.15 to 1.6, and simulated ones less.
+/// Root mean square about their mean (nepers of power) up to which strengths are even: over recorded spalls of the
+/// inner raceway they have 0.6 to 1.3, of the outer one 0.15 to 1.6, and simulated ones less.
 const EVEN: f64 = 0.3;
 /// Deviation of the shaft's order from that of pure rolling: slip changes it by 0.7 of its share inside, all of it
 /// outside.
@@ -70,8 +70,8 @@ impl Strengths {
         Ok(Self { values, elements })
     }
 
-    /// Share of their variance, and of what even strengths may have, that repeats with a shaft of which the passages are
-    /// the `order`-th harmonic; 0 in the mean of chance.
+    /// Share of their variance, and of what even strengths may have, that repeats with a shaft of which the passages
+    /// are the `order`-th harmonic; 0 in the mean of chance.
     pub(super) fn share(&self, order: f64) -> f64 {
         let count = self.values.len();
         let all = square(&self.values);
