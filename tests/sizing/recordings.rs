@@ -177,22 +177,21 @@ fn the_kind_of_recorded_faults_is_named_no_worse_than_by_a_squared_envelope_spec
     let mut tables: BTreeMap<(String, &str), Came> = BTreeMap::new();
     for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with("file,")) {
         let known = read(line, folder);
-        let second = known.rate as usize;
         let all = &known.samples[..];
-        let pieces = [("whole", all.len()), ("half", all.len() / 2), ("1 s", second.min(all.len()))];
-        for (name, count_of) in pieces {
-            for piece in all.chunks_exact(count_of).take(5) {
-                count(&known, piece, 1.0, tables.entry((known.rig.clone(), name)).or_default());
-            }
-        }
-        for (name, second_name, times) in [
-            ("speed / 2", "speed / 2, 1 s", 0.5),
-            ("speed / 1.5", "speed / 1.5, 1 s", 1.0 / 1.5),
-            ("speed × 1.5", "speed × 1.5, 1 s", 1.5),
+        let (whole, second) = (all.len(), (known.rate as usize).min(all.len()));
+        for (name, length, times) in [
+            ("whole", whole, 1.0),
+            ("half", whole / 2, 1.0),
+            ("1 s", second, 1.0),
+            ("speed / 2", whole, 0.5),
+            ("speed / 2, 1 s", second, 0.5),
+            ("speed / 1.5", whole, 1.0 / 1.5),
+            ("speed / 1.5, 1 s", second, 1.0 / 1.5),
+            ("speed × 1.5", whole, 1.5),
+            ("speed × 1.5, 1 s", second, 1.5),
         ] {
-            count(&known, all, times, tables.entry((known.rig.clone(), name)).or_default());
-            for piece in all.chunks_exact(second.min(all.len())).take(5) {
-                count(&known, piece, times, tables.entry((known.rig.clone(), second_name)).or_default());
+            for piece in all.chunks_exact(length).take(5) {
+                count(&known, piece, times, tables.entry((known.rig.clone(), name)).or_default());
             }
         }
     }

@@ -6,8 +6,8 @@
 //! | `integration` | how wrong is a run, by which method and tolerance, for which CPU time |
 //!
 //! Times are CPU times of the one thread that steps, best of several runs, of the automatic method within `fmi2DoStep`
-//! of the library that FMUs are packed with; other programs on the machine still take
-//! caches and memory from it, so ratios within a table mean more than the times.
+//! of the library that FMUs are packed with; other programs on the machine still take caches and memory from it, so
+//! ratios within a table mean more than the times.
 
 mod contact;
 mod integration;

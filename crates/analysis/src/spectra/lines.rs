@@ -23,7 +23,7 @@ const WIDTH: f64 = 0.004;
 pub(crate) const LOBE: f64 = 2.5;
 /// Power that counts as nothing, as a share of the mean: 30 dB down. Signals without noise, as simulations give
 /// them, hold all of a bearing's frequencies at some level; what counts is which of them is loud.
-pub(crate) const QUIET: f64 = 1e-3;
+const QUIET: f64 = 1e-3;
 /// Sidebands of a comb that are taken for its own, on each side.
 const SIDEBANDS: i32 = 2;
 
@@ -120,30 +120,20 @@ impl Lines {
         self.sums = sums(&self.excess);
     }
 
-    /// Mean of ln(1 + height above the noise) over a comb's harmonics: sharpest in the middle of its lines.
+    /// Mean of ln(1 + height above the noise near it) over a comb's harmonics that are not the shaft's: sharpest in the
+    /// middle of its lines.
     pub(crate) fn sharpness(&self, frequency: f64) -> f64 {
-        let heights = self.heights(frequency, |f| self.at(f)).map(|(_, height)| libm::log1p(height));
-        statistics::mean(&heights.collect::<Vec<_>>())
-    }
-
-    /// Harmonics of a frequency that are not the shaft's (Hz), and how high `power` of each stands above the noise near
-    /// it.
-    pub(crate) fn heights(&self, frequency: f64, power: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
-        let harmonics = (1..=FINE).map(move |k| k as f64 * frequency);
-        let near =
-            move |f: f64| ((f - 0.4 * frequency) / self.bin) as usize..((f + 0.4 * frequency) / self.bin) as usize;
-        harmonics
+        let near = |f: f64| ((f - 0.4 * frequency) / self.bin) as usize..((f + 0.4 * frequency) / self.bin) as usize;
+        let height = |f: f64| {
+            let power = self.power.get((f / self.bin).round() as usize).copied().unwrap_or(0.0);
+            let noise = some_median(&self.power[near(f)]);
+            if noise > 0.0 { power / noise } else { 0.0 }
+        };
+        let harmonics = (1..=FINE).map(|k| k as f64 * frequency);
+        let own = harmonics
             .filter(|&f| self.off_shaft(f) >= 2.0 / self.duration)
-            .take_while(move |&f| near(f).end < self.power.len())
-            .map(move |f| {
-                let noise = some_median(&self.power[near(f)]);
-                (f, if noise > 0.0 { power(f) / noise } else { 0.0 })
-            })
-    }
-
-    /// Power at a frequency (Hz).
-    pub(crate) fn at(&self, frequency: f64) -> f64 {
-        self.power.get((frequency / self.bin).round() as usize).copied().unwrap_or(0.0)
+            .take_while(|&f| near(f).end < self.power.len());
+        statistics::mean(&own.map(|f| libm::log1p(height(f))).collect::<Vec<_>>())
     }
 }
 

@@ -94,14 +94,14 @@ fn check_strengths(
     let strengths = Strengths::of(envelope, rate, comb.frequency, elements)?;
     // The passages' order of it.
     let [outer, inner, element] = [nominal.bpfo / speed, nominal.bpfi / speed, 2.0 * nominal.bsf / nominal.ftf];
-    let (order, rivals) = match fault {
-        Fault::Outer => (outer, [inner, inner]),
-        Fault::Inner => (inner, [outer, outer]),
-        _ => (element, [outer, inner]),
+    let (order, rivals): (f64, &[f64]) = match fault {
+        Fault::Outer => (outer, &[inner]),
+        Fault::Inner => (inner, &[outer]),
+        _ => (element, &[inner, outer]),
     };
     let own = strengths.share(order);
-    let [first, second] = rivals.map(|order| (strengths.share(order), comb.frequency / order));
-    let (other, rival) = if second.0 > first.0 { second } else { first };
+    let others = rivals.iter().map(|&order| (strengths.share(order), comb.frequency / order));
+    let (other, rival) = others.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
     let shares = format!(
         "{:.0} % of the variance of the passages' strengths repeats with the {} at the stated speed, {:.0} % with a \
          shaft at {rival:.2} Hz",
