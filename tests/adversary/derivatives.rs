@@ -357,13 +357,13 @@ fn derivatives_by_all_that_a_shipped_scene_lists_are_differences() {
 #[test]
 fn derivatives_by_all_that_a_random_scene_lists_are_differences() {
     let all = AtomicUsize::new(0);
-    for_seeds(10, |_, draw| {
+    for_seeds(5, |_, draw| {
         all.fetch_add(listed_by_a_random_scene(draw)?, Ordering::Relaxed);
         Ok(())
     });
-    // Of ten, half can be set up and started.
+    // Half can be set up and started.
     let all = all.into_inner();
-    assert!(all > 100, "{all} compared");
+    assert!(all > 50, "{all} compared");
 }
 
 /// Balls of which a housing on a spring of 38 N/m is held: the difference of two starts was one of 1000 N/m.

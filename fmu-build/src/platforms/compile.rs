@@ -84,6 +84,8 @@ fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchai
         .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library"])
         .args(["--target", target.compiled_as(), "--locked", "--message-format", "json-render-diagnostics"])
         .envs(toolchain.variables.iter().map(|(name, value)| (name, value)))
+        // Crates behind one have other names, and a library other bytes.
+        .env_remove("RUSTC_WORKSPACE_WRAPPER")
         .stderr(Stdio::inherit())
         .output()
         .with_context(|| format!("cannot start {} to compile the model library", cargo.display()))?;
