@@ -70,8 +70,8 @@ impl<'a, const N: usize> Weights<'a, N> {
     }
 }
 
-/// Puts state + h Σ weight × stage into `to`. The first of the lists `from` is 1 for positions and 0 for velocities, the
-/// second is the state, then come the stages. The one that was worked out last is to be the last: all else is ready
+/// Puts state + h Σ weight × stage into `to`. Of the lists `from` the first is 1 for positions and 0 for velocities,
+/// the second is the state, then come the stages. The one that was worked out last is to be the last: all else is ready
 /// while it is waited for.
 ///
 /// Each method writes its stages out one by one, so that weights are constants there: looked up by the stage's number,
