@@ -11,12 +11,13 @@ use crate::contact::law::{DampedLaw, Elastic, Line, Point, SqueezeFilm};
 use crate::dynamics::parameters::{ElementBlock, FilmsNow, Kinematics, Model, Space, Stage};
 use crate::numerics::lanes::row::Row;
 use crate::numerics::lanes::{Kernel, Lanes, WIDEST, Wide, blocks, blocks_mut, handed_on, sum_of};
+use crate::numerics::number::Number;
 use crate::numerics::plane::{Vector, turned};
 
 /// The smooth contacts of elements at one instant.
-struct Smooth<'a, E> {
+struct Smooth<'a, S: Wide, E> {
     model: &'a Model,
-    elastic: E,
+    law: DampedLaw<Lanes<S>, E>,
     now: &'a Kinematics,
     offset: Vector,
     drift: Vector,
@@ -90,6 +91,9 @@ impl<S: Wide> Sums<S, 4> {
     }
 }
 
+/// Lists of a [`Record`] in the order of [`Record::smooth_contacts`].
+type Kept<'a> = [&'a mut [[f64; WIDEST]]; 11];
+
 /// What is kept of each contact, for whoever wants to know more than the sums. Its lists are made once.
 #[derive(Debug, Clone, Default)]
 pub struct Record {
@@ -151,6 +155,24 @@ impl Record {
     pub fn shoulder_margin(&self, space: &Space, j: usize, side: usize) -> f64 {
         let force = [&self.inner, &self.outer][side][j];
         space.shoulder_margin(side, self.contact_angle(space, j, side), force)
+    }
+
+    /// The lists that smooth contacts are kept in, looked up once for all elements.
+    #[inline(always)]
+    fn smooth_contacts(&mut self) -> Kept<'_> {
+        [
+            blocks_mut(&mut self.inner),
+            blocks_mut(&mut self.normal_radial),
+            blocks_mut(&mut self.normal_tangential),
+            blocks_mut(&mut self.outer),
+            blocks_mut(&mut self.outer_radial),
+            blocks_mut(&mut self.outer_tangential),
+            blocks_mut(&mut self.inner_approach),
+            blocks_mut(&mut self.outer_approach),
+            blocks_mut(&mut self.inner_pushing),
+            blocks_mut(&mut self.outer_pushing),
+            blocks_mut(&mut self.path_rate),
+        ]
     }
 
     /// Room for `slots` elements.
@@ -225,11 +247,10 @@ impl Model {
         let clearance = if GENERAL { self.clearance(films) } else { self.radial_clearance };
         let films = if GENERAL { films.map(|films| films.squeeze) } else { None };
         let ahead = stage.ahead;
-        let smooth = Smooth { model: self, elastic, now, offset, drift, body, series, ahead, films, clearance };
+        let law = DampedLaw::new(self.inner.contact.law.damping, elastic, |number| Lanes::splat(simd, number));
+        let smooth = Smooth { model: self, law, now, offset, drift, body, series, ahead, films, clearance };
         let mut sums = Sums::new(simd);
-        if RECORD {
-            contacts.outer_tangential.fill(0.0);
-        }
+        let mut kept = RECORD.then(|| contacts.smooth_contacts());
         let (state, derivative) = (blocks(stage.state), blocks_mut(derivative));
         for (k, block) in elements.iter().enumerate() {
             let w = start / WIDEST + k;
@@ -238,12 +259,12 @@ impl Model {
                     break;
                 }
                 let of = |numbers: &[f64; WIDEST]| Lanes::part(simd, numbers, part);
-                let found = smooth.contacts::<S, GENERAL>(simd, of(&state[k]), of(&state[w]), block, of);
+                let found = smooth.contacts::<GENERAL>(simd, of(&state[k]), of(&state[w]), block, of);
                 sums.add(part, &found.forces);
                 found.path_rate.put(&mut derivative[k], part);
                 found.acceleration.put(&mut derivative[w], part);
-                if RECORD {
-                    found.keep(contacts, of(&state[k]), k, part);
+                if let Some(kept) = &mut kept {
+                    found.keep(kept, of(&state[k]), k, part);
                 }
             }
         }
@@ -252,30 +273,22 @@ impl Model {
 }
 
 impl<S: Wide> Found<S> {
-    /// Puts what is kept into `contacts`; the outer contact is that on the smooth raceway, at path `u`.
+    /// Puts what is kept into its lists; the outer contact is that on the smooth raceway, at path `u`.
     #[inline(always)]
-    fn keep(&self, contacts: &mut Record, u: Lanes<S>, block: usize, part: usize) {
-        for (list, value) in [
-            (&mut contacts.inner, self.inner),
-            (&mut contacts.normal_radial, self.normal[0]),
-            (&mut contacts.normal_tangential, self.normal[1]),
-            (&mut contacts.outer, self.outer),
-            (&mut contacts.outer_radial, self.outer),
-            (&mut contacts.inner_approach, self.approach),
-            (&mut contacts.outer_approach, u),
-            (&mut contacts.inner_pushing, self.pushing[0]),
-            (&mut contacts.outer_pushing, self.pushing[1]),
-            (&mut contacts.path_rate, self.path_rate),
-        ] {
-            value.put(&mut blocks_mut(list)[block], part);
+    fn keep(&self, kept: &mut Kept, u: Lanes<S>, block: usize, part: usize) {
+        let Self { path_rate, inner, normal: [n_r, n_t], outer, approach, pushing, .. } = *self;
+        let across = outer.all(0.0);
+        let found = [inner, n_r, n_t, outer, outer, across, approach, u, pushing[0], pushing[1], path_rate];
+        for n in 0..found.len() {
+            found[n].put(&mut kept[n][block], part);
         }
     }
 }
 
-impl<E: Elastic> Smooth<'_, E> {
+impl<S: Wide, E: Elastic> Smooth<'_, S, E> {
     /// Of elements at the paths `u` (m) and absolute radial velocities `w` (m/s).
     #[inline(always)]
-    fn contacts<S: Wide, const GENERAL: bool>(
+    fn contacts<const GENERAL: bool>(
         &self,
         simd: S,
         u: Lanes<S>,
@@ -303,7 +316,7 @@ impl<E: Elastic> Smooth<'_, E> {
         let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
         let closing = gap.closing([dot(simd, self.drift, e_r) + path_rate, along]);
 
-        let law = DampedLaw::new(model.inner.contact.law.damping, self.elastic, number);
+        let law = &self.law;
         let mut inner = law.force(of(&block.inner), delta, closing);
         let mut outer = law.force(of(&block.outer), u, path_rate);
         if GENERAL && let Some([inside, outside]) = &self.films {

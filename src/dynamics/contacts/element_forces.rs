@@ -11,22 +11,22 @@ use crate::numerics::plane::Vector;
 
 /// What a contact of an element follows from, on either raceway.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<T> {
+pub(super) struct Place<'a, T> {
     pub(super) element: usize,
     /// Cell of the raceway and of the element's own defect.
     pub(super) cells: [u32; 2],
     /// Path (m), and angle of the element about the outer ring's centre (rad).
     pub(super) u: T,
     pub(super) angle: T,
-    pub(super) frames: Frames<T>,
-    pub(super) films: Option<OilFilms<T>>,
+    pub(super) frames: &'a Frames<T>,
+    pub(super) films: Option<&'a OilFilms<T>>,
     pub(super) curved: bool,
 }
 
 /// What the inner contact of an element follows from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct InnerPlace<T> {
-    pub(super) at: Place<T>,
+pub(super) struct InnerPlace<'a, T> {
+    pub(super) at: Place<'a, T>,
     /// Distance from the outer ring's centre (m).
     pub(super) rho: T,
     /// Rings' offset (m), and rate of q (m/s), along and across e_r.
@@ -36,8 +36,8 @@ pub(super) struct InnerPlace<T> {
 
 /// What the outer contact of an element follows from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct OuterPlace<T> {
-    pub(super) at: Place<T>,
+pub(super) struct OuterPlace<'a, T> {
+    pub(super) at: Place<'a, T>,
     /// Rate of the path (m/s), and speed of the element about the outer ring's centre (rad/s).
     pub(super) path_rate: T,
     pub(super) omega: T,
@@ -107,8 +107,8 @@ impl<T: Scalar> ElementMotion<T> {
     }
 
     /// Where a contact of it is, in these cells, without oil films.
-    pub(super) fn place(&self, cells: [u32; 2]) -> Place<T> {
-        let ElementMotion { element, path, angle, frames, curved, .. } = *self;
+    pub(super) fn place(&self, cells: [u32; 2]) -> Place<'_, T> {
+        let Self { element, path, angle, ref frames, curved, .. } = *self;
         Place { element, cells, u: path, angle, frames, films: None, curved }
     }
 
@@ -128,7 +128,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> ElementForces<T> {
         let films = at.oil_films();
-        let [inside, outside] = cells.map(|cells| Place { films, ..at.place(cells) });
+        let [inside, outside] = cells.map(|cells| Place { films: films.as_ref(), ..at.place(cells) });
         let (rho, offset, q_rate) = self.seen_from_inner(at);
         let place = InnerPlace { at: inside, rho, offset, q_rate };
         let contacts = self.own_contacts(at.element);
@@ -185,9 +185,9 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> (OnElement<T>, InnerGap<T>) {
         let InnerPlace { at: Place { element, cells, u, angle, frames, films, curved }, rho, offset, q_rate } = place;
-        let clearance = self.clearance_between(*element, films.as_ref());
+        let clearance = self.clearance_between(*element, *films);
         let gap = InnerGap::of(*rho, *u, *offset, clearance, false);
-        let film = film_on(films.as_ref(), RacewaySide::Inner);
+        let film = film_on(*films, RacewaySide::Inner);
         if *cells == [SMOOTH; 2] {
             let (force, _) = normal_force(contact, film, gap.approach, gap.closing(*q_rate));
             let force = [force * gap.n[0], force * gap.n[1]];
@@ -211,7 +211,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> OnElement<T> {
         let OuterPlace { at: Place { element, cells, u, angle, frames, films, curved }, path_rate, omega } = place;
-        let film = film_on(films.as_ref(), RacewaySide::Outer);
+        let film = film_on(*films, RacewaySide::Outer);
         if *cells == [SMOOTH; 2] {
             let (force, _) = normal_force(contact, film, *u, *path_rate);
             return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };

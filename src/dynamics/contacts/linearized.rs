@@ -199,6 +199,8 @@ impl Model {
     ) -> (FirstOrder<T, INNER>, [T; 2], T) {
         let (rho, offset, q_rate) = self.seen_from_inner(at);
         let turn = |turn: Turn<T>| Turn { angle: seed(turn.angle, 4), speed: seed(turn.speed, 5) };
+        let frames = Frames(at.frames.0.map(turn));
+        let films = at.films.map(|films| films.following(seed(at.film_speed, 6)));
         let (inner, gap) = self.inner_contact::<Dual<T, K>>(
             contact,
             &InnerPlace {
@@ -207,8 +209,8 @@ impl Model {
                     cells,
                     u: Dual::constant(at.path),
                     angle: Dual::constant(at.angle),
-                    frames: Frames(at.frames.0.map(turn)),
-                    films: at.films.map(|films| films.following(seed(at.film_speed, 6))),
+                    frames: &frames,
+                    films: films.as_ref(),
                     curved: at.curved,
                 },
                 rho: Dual::constant(rho),
@@ -229,6 +231,8 @@ impl Model {
     ) -> FirstOrder<T, OUTER> {
         let constant = Dual::<T, K>::constant;
         let turn = |turn: Turn<T>| Turn { angle: constant(turn.angle), speed: constant(turn.speed) };
+        let frames = Frames(at.frames.0.map(turn));
+        let films = at.films.map(|films| films.following(seed(at.film_speed, 4)));
         FirstOrder::of(self.outer_contact(
             contact,
             &OuterPlace {
@@ -237,8 +241,8 @@ impl Model {
                     cells,
                     u: seed(at.path, 0),
                     angle: seed(at.angle, 2),
-                    frames: Frames(at.frames.0.map(turn)),
-                    films: at.films.map(|films| films.following(seed(at.film_speed, 4))),
+                    frames: &frames,
+                    films: films.as_ref(),
                     curved: at.curved,
                 },
                 path_rate: seed(at.path_rate, 1),

@@ -121,7 +121,8 @@ impl Model {
         by: &Variation,
         shortcuts: &mut Shortcuts,
     ) -> ElementForces<Changing> {
-        let (cells, at) = (self.cells_of(cells, j), self.changing_motion(j, state, now, by, shortcuts));
+        let at = self.changing_motion(j, state, now, by, shortcuts);
+        let cells = self.cells_of(cells, j);
         if self.elements_in_balance() {
             self.in_balance(cells, state[j], &at, shortcuts).forces()
         } else {

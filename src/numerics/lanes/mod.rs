@@ -42,18 +42,6 @@ pub fn groups<S: Wide>(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count.div_ceil(S::F64_LANES)).map(move |group| (group / parts, group % parts))
 }
 
-/// Whole blocks of four numbers.
-#[inline(always)]
-pub fn quads(list: &[f64]) -> &[[f64; QUAD]] {
-    list.as_chunks().0
-}
-
-/// Whole blocks of four numbers.
-#[inline(always)]
-pub fn quads_mut(list: &mut [f64]) -> &mut [[f64; QUAD]] {
-    list.as_chunks_mut().0
-}
-
 /// An instruction set that has registers of four numbers, or of a multiple.
 pub trait Wide: Simd {
     /// The same machine with four lanes.

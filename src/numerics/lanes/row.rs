@@ -11,17 +11,18 @@ const LINE: usize = 64;
 /// Numbers that start on the border of a cache line. Their count does not change.
 #[derive(Debug)]
 pub struct Row {
+    /// From `start` to the end.
     numbers: Vec<f64>,
     start: usize,
-    len: usize,
 }
 
 impl Row {
     /// So many zeros.
     pub fn zeros(len: usize) -> Self {
-        let numbers = vec![0.0; len + LINE / size_of::<f64>()];
+        let mut numbers = vec![0.0; len + LINE / size_of::<f64>()];
         let start = numbers.as_ptr().align_offset(LINE).min(LINE / size_of::<f64>());
-        Self { numbers, start, len }
+        numbers.truncate(start + len);
+        Self { numbers, start }
     }
 
     /// Those of an iterator.
@@ -42,7 +43,7 @@ impl Default for Row {
 
 impl Clone for Row {
     fn clone(&self) -> Self {
-        Self::from_fn(self.len, |i| self[i])
+        Self::from_fn(self.len(), |i| self[i])
     }
 }
 
@@ -57,14 +58,14 @@ impl Deref for Row {
 
     #[inline(always)]
     fn deref(&self) -> &[f64] {
-        &self.numbers[self.start..self.start + self.len]
+        &self.numbers[self.start..]
     }
 }
 
 impl DerefMut for Row {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [f64] {
-        &mut self.numbers[self.start..self.start + self.len]
+        &mut self.numbers[self.start..]
     }
 }
 

@@ -46,7 +46,7 @@ impl Simulation {
                 _ => return Err(self.not_exchanged(known, false)),
             }
         }
-        self.finish_change(&outputs, acceleration);
+        self.finish_change(&outputs, acceleration, self.present.excitation);
         for (value, &unknown) in values.iter_mut().zip(unknowns) {
             *value = if unknown < rows {
                 self.changed(self.interface.quantities[unknown as usize])

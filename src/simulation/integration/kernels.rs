@@ -178,9 +178,7 @@ impl RightHandSide for Stages<'_> {
             return model.derivative_on::<S, true>(simd, at, out, forces);
         }
         model.derivative_on::<S, false>(simd, at, out, forces);
-        // In the plane the rest is 0.
-        let count = if model.space.is_some() { self.sum.len() } else { 4 };
-        for (sum, force) in self.sum.iter_mut().zip(forces.rings).take(count) {
+        for (sum, force) in self.sum.iter_mut().zip(&forces.rings) {
             *sum += self.weights[stage] * force;
         }
     }

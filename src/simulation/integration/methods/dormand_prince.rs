@@ -3,7 +3,7 @@
 //! Coefficients: Dormand and Prince (1980); dense output: Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6. The last stage of a step is the first of the next.
 
-use super::explicit::{LAST, RightHandSide, Weights, combine, row};
+use super::explicit::{LAST, RightHandSide, Weights, combine};
 use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::{Each, Lanes, Wide};
 
@@ -14,7 +14,7 @@ pub(crate) const ORDERS: [usize; 2] = [5, 4];
 pub(crate) const NODES: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 
 /// Stage coefficients a; the last row is also the weights b of order 5.
-pub(crate) const STAGES: [[f64; 6]; 7] = [
+pub(crate) static STAGES: [[f64; 6]; 7] = [
     [0.0; 6],
     [0.2, 0.0, 0.0, 0.0, 0.0, 0.0],
     [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
@@ -47,32 +47,25 @@ pub(crate) fn try_step<S: Wide>(
     h: f64,
     right_hand_side: &mut impl RightHandSide,
 ) {
-    let StageBuffers { first, last, stages, end, trial, positions, partition, .. } = buffers;
-    let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
-    let rows = (row(STAGES[1]), row(STAGES[2]), row(STAGES[3]), row(STAGES[4]), row(STAGES[5]));
-    for stage in 1..LAST {
-        let (done, rest) = stages.split_at_mut(stage - 1);
-        match stage {
-            1 => combine(simd, partition, kinds, state, [first], Weights::alike(h, &rows.0), trial),
-            2 => combine(simd, partition, kinds, state, [first, &done[0]], Weights::alike(h, &rows.1), trial),
-            3 => {
-                let stages = [first, &done[0], &done[1]];
-                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.2), trial);
-            }
-            4 => {
-                let stages = [first, &done[0], &done[1], &done[2]];
-                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.3), trial);
-            }
-            _ => {
-                let stages = [first, &done[0], &done[1], &done[2], &done[3]];
-                combine(simd, partition, kinds, state, stages, Weights::alike(h, &rows.4), trial);
-            }
-        }
-        right_hand_side.evaluate(simd, stage, trial, None, &mut rest[0]);
-    }
-    let [a, b, c, d, e, ..] = stages;
-    let weights = STAGES[LAST];
-    combine(simd, partition, kinds, state, [first, a, b, c, d, e], Weights::alike(h, &weights), end);
+    let StageBuffers { first, last, stages: [a, b, c, d, e, ..], end, trial, positions, partition, .. } = buffers;
+    let (partition, len) = (*partition, partition.len());
+    // Equal lengths, seen once, spare the checks of every sum.
+    let (kinds, state, first) = (&positions[..len], &state[..len], &first[..len]);
+    let (a, b, c, d, e) = (&mut a[..len], &mut b[..len], &mut c[..len], &mut d[..len], &mut e[..len]);
+    let (trial, end) = (&mut trial[..len], &mut end[..len]);
+    combine(simd, partition, [kinds, state, first], Weights::alike(h, &STAGES[1]), trial);
+    right_hand_side.evaluate(simd, 1, trial, None, a);
+    combine(simd, partition, [kinds, state, first, a], Weights::alike(h, &STAGES[2]), trial);
+    right_hand_side.evaluate(simd, 2, trial, None, b);
+    combine(simd, partition, [kinds, state, first, a, b], Weights::alike(h, &STAGES[3]), trial);
+    right_hand_side.evaluate(simd, 3, trial, None, c);
+    combine(simd, partition, [kinds, state, first, a, b, c], Weights::alike(h, &STAGES[4]), trial);
+    right_hand_side.evaluate(simd, 4, trial, None, d);
+    combine(simd, partition, [kinds, state, first, a, b, c, d], Weights::alike(h, &STAGES[5]), trial);
+    right_hand_side.evaluate(simd, 5, trial, None, e);
+    let [of_first, _, of_b, of_c, of_d, of_e] = STAGES[LAST];
+    let row = [of_first, of_b, of_c, of_d, of_e];
+    combine(simd, partition, [kinds, state, first, b, c, d, e], Weights::alike(h, &row), end);
     right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 

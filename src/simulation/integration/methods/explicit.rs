@@ -2,15 +2,23 @@
 
 use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::row::Row;
-use crate::numerics::lanes::{
-    Each, Lanes, Partition, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of, quads, quads_mut,
-};
+use crate::numerics::lanes::{Each, Lanes, Lists, Partition, QUAD, WIDEST, Wide, after, largest_of};
 
 /// Number of the stage at the end of a step; with either method it is the first of the next.
 pub const LAST: usize = 6;
 
 /// Stages that an error estimate is made of, with their weights.
 pub(crate) type ErrorParts = [(usize, f64); 6];
+
+/// These `stages` with what all stages weigh.
+pub(super) const fn error_parts(stages: [usize; 6], weights: [f64; 7]) -> ErrorParts {
+    let (mut parts, mut n) = ([(0, 0.0); 6], 0);
+    while n < stages.len() {
+        parts[n] = (stages[n], weights[stages[n]]);
+        n += 1;
+    }
+    parts
+}
 
 /// A stage by its number.
 #[inline(always)]
@@ -27,8 +35,12 @@ fn stage_of(buffers: &StageBuffers, number: usize) -> &Row {
 #[inline(always)]
 pub fn largest_error<S: Wide>(simd: S, buffers: &StageBuffers, parts: ErrorParts, h: f64, weights: &[f64]) -> f64 {
     let mut found = Found { largest: [0.0; QUAD], poison: [0.0; WIDEST] };
-    let [a, b, c, d, e, f] = parts.map(|(number, _)| &stage_of(buffers, number)[..]);
-    buffers.partition.read(simd, [weights, a, b, c, d, e, f], &Errors(parts.map(|(_, weight)| weight)), &mut found);
+    let len = buffers.partition.len();
+    let (mut lists, mut factors) = ([&weights[..len]; 7], [0.0; 6]);
+    for n in 0..parts.len() {
+        (lists[n + 1], factors[n]) = (&stage_of(buffers, parts[n].0)[..len], parts[n].1);
+    }
+    buffers.partition.read(simd, lists, &Errors(factors), &mut found);
     if found.poison == [0.0; WIDEST] { h * largest_of(found.largest) } else { f64::INFINITY }
 }
 
@@ -42,7 +54,7 @@ pub(crate) fn error(buffers: &StageBuffers, parts: ErrorParts, i: usize, h: f64)
 }
 
 /// How stages are weighted, the one row for positions and the other for velocities; both times the step's length `h`
-/// (s).
+/// (s). What a row has beyond the stages does not count.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights<'a, const N: usize> {
     pub(super) h: f64,
@@ -58,73 +70,64 @@ impl<'a, const N: usize> Weights<'a, N> {
     }
 }
 
-/// Puts `state` + h Σ weight × stage into `to`; `kinds` is 1 for positions, 0 for velocities. The stage that was worked
-/// out last is to come last: all else is ready while it is waited for.
+/// Puts state + h Σ weight × stage into `to`. Of the lists `from` the first is 1 for positions and 0 for velocities,
+/// the second is the state, then come the stages. The one that was worked out last is to be the last: all else is ready
+/// while it is waited for.
 ///
 /// Each method writes its stages out one by one, so that weights are constants there: looked up by the stage's number,
 /// they cost a step 5 to 8 % more.
 #[inline(always)]
-pub(super) fn combine<S: Wide, const N: usize>(
+pub(super) fn combine<S: Wide, const I: usize, const N: usize>(
     simd: S,
     partition: Partition,
-    kinds: &[f64],
-    state: &[f64],
-    stages: [&[f64]; N],
-    Weights { h, positions, velocities }: Weights<N>,
+    from: [&[f64]; I],
+    weights: Weights<N>,
     to: &mut [f64],
 ) {
-    let (half, whole) = (partition.second() / WIDEST, partition.third() / WIDEST);
-    let mut lists = [&blocks(state)[..whole]; N];
-    for (list, stage) in lists.iter_mut().zip(stages) {
-        *list = &blocks(stage)[..whole];
-    }
-    let (state_blocks, to_blocks) = (&blocks(state)[..whole], &mut blocks_mut(to)[..whole]);
-    for (row, start) in [(positions, 0), (velocities, half)] {
-        let mut weights = [Lanes::splat(simd, 0.0); N];
-        for (weight, of_row) in weights.iter_mut().zip(row) {
-            *weight = Lanes::splat(simd, h * of_row);
+    let (count, second, third) = (partition.count, partition.second(), partition.third());
+    let Weights { h, positions, velocities } = weights;
+    Lists { from, to: [&mut *to] }.for_each(simd, count, &List { h, row: positions }, &mut ());
+    let lists = Lists { from: after(from, second), to: [&mut to[second..]] };
+    lists.for_each(simd, count, &List { h, row: velocities }, &mut ());
+    let lists = Lists { from: after(from, third), to: [&mut to[third..]] };
+    lists.for_each(simd.quad(), partition.rest, &weights, &mut ());
+}
+
+/// Stages weighted alike.
+struct List<'a, const N: usize> {
+    h: f64,
+    row: &'a [f64; N],
+}
+
+impl<const I: usize, const N: usize> Each<I, 1> for List<'_, N> {
+    type Sum = ();
+
+    #[inline(always)]
+    fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; I], (): &mut ()) -> [Lanes<S>; 1] {
+        let mut sum = from[1];
+        for n in 2..I {
+            sum = sum + Lanes::splat(simd, self.h * self.row[n - 2]) * from[n];
         }
-        for k in start..start + half {
-            for part in 0..WIDEST / S::F64_LANES {
-                let mut sum = Lanes::part(simd, &state_blocks[k], part);
-                for n in 0..N {
-                    if row[n] != 0.0 {
-                        sum = sum + weights[n] * Lanes::part(simd, &lists[n][k], part);
-                    }
-                }
-                sum.put(&mut to_blocks[k], part);
-            }
-        }
-    }
-    let third = partition.third();
-    let (quad, state, to) = (simd.quad(), quads(&state[third..]), quads_mut(&mut to[third..]));
-    let kinds = &quads(&kinds[third..])[..to.len()];
-    let mut lists = [&state[..to.len()]; N];
-    for (list, stage) in lists.iter_mut().zip(stages) {
-        *list = &quads(&stage[third..])[..to.len()];
-    }
-    for (k, to) in to.iter_mut().enumerate() {
-        let kind = Lanes::<S>::of(simd, kinds[k]);
-        let mut sum = Lanes::<S>::of(simd, state[k]);
-        for n in 0..N {
-            if positions[n] == velocities[n] {
-                if positions[n] != 0.0 {
-                    sum = sum + Lanes::splat(quad, h * positions[n]) * Lanes::<S>::of(simd, lists[n][k]);
-                }
-                continue;
-            }
-            let more = Lanes::splat(quad, h * (positions[n] - velocities[n]));
-            let weight = Lanes::splat(quad, h * velocities[n]) + kind * more;
-            sum = sum + weight * Lanes::<S>::of(simd, lists[n][k]);
-        }
-        sum.store(to, 0);
+        [sum]
     }
 }
 
-/// The first of a row.
-#[inline(always)]
-pub(super) fn row<const N: usize, const ALL: usize>(row: [f64; ALL]) -> [f64; N] {
-    std::array::from_fn(|i| row[i])
+impl<const I: usize, const N: usize> Each<I, 1> for Weights<'_, N> {
+    type Sum = ();
+
+    #[inline(always)]
+    fn each<S: Wide>(&self, simd: S, from: [Lanes<S>; I], (): &mut ()) -> [Lanes<S>; 1] {
+        let mut sum = from[1];
+        for n in 2..I {
+            let (position, velocity) = (self.positions[n - 2], self.velocities[n - 2]);
+            let mut weight = Lanes::splat(simd, self.h * velocity);
+            if position != velocity {
+                weight = weight + from[0] * Lanes::splat(simd, self.h * (position - velocity));
+            }
+            sum = sum + weight * from[n];
+        }
+        [sum]
+    }
 }
 
 /// What the methods integrate.

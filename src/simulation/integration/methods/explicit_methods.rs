@@ -1,6 +1,6 @@
 //! The two explicit pairs of methods, and what a step asks of whichever one takes it.
 
-use super::explicit::{ErrorParts, LAST, RightHandSide};
+use super::explicit::{ErrorParts, LAST, RightHandSide, error_parts};
 use super::stage_buffers::StageBuffers;
 use super::{dormand_prince, phase_fitted};
 use crate::numerics::lanes::Wide;
@@ -36,8 +36,8 @@ impl ExplicitMethod {
     #[inline(always)]
     pub fn error_parts(self) -> ErrorParts {
         match self {
-            Self::DormandPrince => [0, 2, 3, 4, 5, 6].map(|i| (i, dormand_prince::ERROR[i])),
-            Self::PhaseFitted => [0, 1, 2, 3, 4, 6].map(|i| (i, phase_fitted::ERROR[i])),
+            Self::DormandPrince => const { error_parts([0, 2, 3, 4, 5, 6], dormand_prince::ERROR) },
+            Self::PhaseFitted => const { error_parts([0, 1, 2, 3, 4, 6], phase_fitted::ERROR) },
         }
     }
 

@@ -18,7 +18,7 @@
 //! conditions were moved until phase, amplitude and reach were as above, with the residuals of order 5 as small as that
 //! leaves them. The tests check all of it.
 
-use super::explicit::{LAST, RightHandSide, Weights, combine, row};
+use super::explicit::{LAST, RightHandSide, Weights, combine};
 use super::stage_buffers::StageBuffers;
 use crate::numerics::lanes::Wide;
 
@@ -30,16 +30,16 @@ pub const NODES: [f64; LAST] =
     [0.0, 0.28270737957946374, 0.39338794696228396, 0.5820632704722885, 0.8429264990121761, 1.0];
 
 /// a
-pub const VELOCITIES: [[f64; 4]; 5] = [
-    [0.0, 0.0, 0.0, 0.0],
-    [0.28270737957946374, 0.0, 0.0, 0.0],
-    [-0.015267734519361675, 0.40865568148164566, 0.0, 0.0],
-    [-0.09159184889770952, 0.5596869889786574, 0.11396813039134053, 0.0],
-    [0.18874159397391257, 0.1215442498098198, -0.024711443689928694, 0.5573520989183723],
+pub static VELOCITIES: [[f64; 5]; 5] = [
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [0.28270737957946374, 0.0, 0.0, 0.0, 0.0],
+    [-0.015267734519361675, 0.40865568148164566, 0.0, 0.0, 0.0],
+    [-0.09159184889770952, 0.5596869889786574, 0.11396813039134053, 0.0, 0.0],
+    [0.18874159397391257, 0.1215442498098198, -0.024711443689928694, 0.5573520989183723, 0.0],
 ];
 
 /// â
-pub const POSITIONS: [[f64; 5]; 5] = [
+pub static POSITIONS: [[f64; 5]; 5] = [
     [0.0, 0.0, 0.0, 0.0, 0.0],
     [0.0898603529819182, 0.19284702659754557, 0.0, 0.0, 0.0],
     [0.34130779674986156, -0.38842147052540044, 0.4405016207378229, 0.0, 0.0],
@@ -63,6 +63,11 @@ pub const ERROR: [f64; 7] = [
     0.011622317976272696,
 ];
 
+#[inline(always)]
+fn weights<'a>(h: f64, stage: usize) -> Weights<'a, 5> {
+    Weights { h, positions: &POSITIONS[stage], velocities: &VELOCITIES[stage] }
+}
+
 /// Tries a step of length `h` from `state`; the first stage must be there.
 #[inline(always)]
 pub fn try_step<S: Wide>(
@@ -72,37 +77,21 @@ pub fn try_step<S: Wide>(
     h: f64,
     right_hand_side: &mut impl RightHandSide,
 ) {
-    let StageBuffers { first, last, stages, end, trial, positions, partition, .. } = buffers;
-    let (partition, kinds, first) = (*partition, &positions[..], &first[..]);
-    for stage in 1..5 {
-        let (done, rest) = stages.split_at_mut(stage - 1);
-        match stage {
-            1 => {
-                let stages = [first];
-                let weights = Weights { h, positions: &row(POSITIONS[1]), velocities: &row(VELOCITIES[1]) };
-                combine(simd, partition, kinds, state, stages, weights, trial);
-            }
-            2 => {
-                let stages = [first, &done[0]];
-                let weights = Weights { h, positions: &row(POSITIONS[2]), velocities: &row(VELOCITIES[2]) };
-                combine(simd, partition, kinds, state, stages, weights, trial);
-            }
-            3 => {
-                let stages = [first, &done[0], &done[1]];
-                let weights = Weights { h, positions: &row(POSITIONS[3]), velocities: &row(VELOCITIES[3]) };
-                combine(simd, partition, kinds, state, stages, weights, trial);
-            }
-            _ => {
-                let stages = [first, &done[0], &done[1], &done[2]];
-                let weights = Weights { h, positions: &row(POSITIONS[4]), velocities: &row(VELOCITIES[4]) };
-                combine(simd, partition, kinds, state, stages, weights, trial);
-            }
-        }
-        right_hand_side.evaluate(simd, stage, trial, Some(h * POSITIONS[stage][stage]), &mut rest[0]);
-    }
-    let [a, b, c, d, ..] = stages;
-    let weights = row(WEIGHTS);
-    combine(simd, partition, kinds, state, [first, a, b, c, d], Weights::alike(h, &weights), end);
+    let StageBuffers { first, last, stages: [a, b, c, d, ..], end, trial, positions, partition, .. } = buffers;
+    let (partition, len) = (*partition, partition.len());
+    // Equal lengths, seen once, spare the checks of every sum.
+    let (kinds, state, first) = (&positions[..len], &state[..len], &first[..len]);
+    let (a, b, c, d) = (&mut a[..len], &mut b[..len], &mut c[..len], &mut d[..len]);
+    let (trial, end) = (&mut trial[..len], &mut end[..len]);
+    combine(simd, partition, [kinds, state, first], weights(h, 1), trial);
+    right_hand_side.evaluate(simd, 1, trial, Some(h * POSITIONS[1][1]), a);
+    combine(simd, partition, [kinds, state, first, a], weights(h, 2), trial);
+    right_hand_side.evaluate(simd, 2, trial, Some(h * POSITIONS[2][2]), b);
+    combine(simd, partition, [kinds, state, first, a, b], weights(h, 3), trial);
+    right_hand_side.evaluate(simd, 3, trial, Some(h * POSITIONS[3][3]), c);
+    combine(simd, partition, [kinds, state, first, a, b, c], weights(h, 4), trial);
+    right_hand_side.evaluate(simd, 4, trial, Some(h * POSITIONS[4][4]), d);
+    combine(simd, partition, [kinds, state, first, a, b, c, d], Weights::alike(h, &WEIGHTS), end);
     right_hand_side.evaluate(simd, LAST, end, None, last);
 }
 

@@ -58,7 +58,7 @@ impl Simulation {
             self.invalidate(UpToDate::State);
         }
         self.along_time(&excitation);
-        self.finish_change(references, acceleration);
+        self.finish_change(references, acceleration, self.excitation(false));
         for (value, &reference) in values.iter_mut().zip(references) {
             *value = self.changed(self.interface.quantities[reference as usize]);
         }
@@ -112,7 +112,7 @@ impl Simulation {
             );
             found.ok_or(SimulationError::NoDerivative)?;
         }
-        self.finish_change(unknowns, acceleration);
+        self.finish_change(unknowns, acceleration, self.present.excitation);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
             *value = self.changed(self.interface.quantities[reference as usize]);
         }
@@ -241,10 +241,14 @@ impl Simulation {
     }
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
-    /// outer ring's `acceleration` is the present one (m/s²).
-    pub(in crate::simulation) fn finish_change(&mut self, unknowns: &[u32], acceleration: Vector) {
+    /// outer ring's `acceleration` is the present one (m/s²), `excitation` is without derivatives of inputs.
+    pub(in crate::simulation) fn finish_change(
+        &mut self,
+        unknowns: &[u32],
+        acceleration: Vector,
+        excitation: Excitation,
+    ) {
         self.note_wiring(value_access::SECOND);
-        let excitation = self.excitation(false);
         let forces_now = &mut self.present.evaluation.forces;
         let progress = &self.run.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
