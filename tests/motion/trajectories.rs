@@ -1,6 +1,7 @@
 //! Stored trajectories of an independent program: `trajectories/*.csv`, positions (m) under law `hertz` by SciPy's
 //! DOP853 at a relative tolerance of 1e-12 on equations that were written separately in Python. Commit 1df39393 has
 //! that program in `tests/oracle`. Of random scenes `adversary/oracle` says the same.
+#![allow(clippy::unwrap_used)]
 
 use crate::support::Named;
 use std::f64::consts::TAU;

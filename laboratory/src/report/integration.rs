@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Extent;
 use super::machine::{fastest, timed};
-use super::run::{Deviation, RATE, STEP, Signals, Subject};
+use super::run::{Deviation, STEP, Signals, Subject};
 use crate::packed::{self, Packed};
 use fmu_build::package::Model;
 use fmu_build::shared::{Project, whole_file};
