@@ -1,4 +1,4 @@
-//! Our side of `laboratory/peers/integration.py`: CPU seconds of an FMU per simulated second and error over the first
+//! Our side of `laboratory/peers/planar.py`: CPU seconds of an FMU per simulated second and error over the first
 //! 20 ms under law `hertz`.
 //!
 //!     cargo run --release -p brinell-laboratory --example beside_peers -- SCENE.toml …

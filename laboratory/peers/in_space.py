@@ -1,29 +1,19 @@
-"""LSODA and CVODE on a healthy bearing with three degrees of freedom: CPU seconds per simulated second against error.
+"""Peers on a healthy bearing with three degrees of freedom.
 
     python laboratory/peers/in_space.py scenes/7205-preloaded.toml [--stop 0.02] [--step 1e-5] [--repeat 3]
 
 The equations are those of docs/explanation/axial.md, written from the page: balls between two grooves whose rings move
-along x, y and z under forces, law of Hunt and Crossley, a sensor along z. No defect, no tilt. Peers, times and tolerances
-as in integration.py beside this; errors are the rms of the housing's vertical acceleration against DOP853 at rtol 1e-12,
-over that of the acceleration, and the error of the reference itself is that of a run at 1e-11.
+along x, y and z under forces, law of Hunt and Crossley, a sensor along z. No defect, no tilt. What is compared is said
+in integrators.py.
 """
 
-import argparse
 import math
-import pathlib
-import sys
-import time
 
 import numba
 import numpy as np
-from scipy.integrate import odeint, solve_ivp
+from integrators import Problem, hertz_constant, main
 from scipy.optimize import least_squares
-from sksundae.cvode import CVODE
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "oracle"))
-from bearing import hertz_constant, tomllib
-
-TOLERANCES = [1e-8, 1e-9, 1e-10, 1e-11]
 # Shaft x y z and rates, housing the same, sensor s s'; then u, v, w and w_z of all balls.
 BODIES = 14
 
@@ -116,106 +106,34 @@ def compile_rhs(scene):
     return rhs, z, [m_s, m_h, m_r, m]
 
 
-def compile_jacobian(rhs, scale):
-    """The Jacobian by one-sided differences as machine code: jac(t, y, J)."""
-    steps = 1e-5 * scale
+def balance(rhs, rates, masses):
+    """All in balance about the turning cage: forces vanish, looked for from 10 µm of displacement along z on."""
+    n, count = len(rates), (len(rates) - BODIES) // 4
+    found = np.zeros(n)
+    found[2], found[BODIES + count : BODIES + 2 * count] = 10e-6, 5e-6
 
-    @numba.njit
-    def jac(t, y, j):
-        base, moved, x = np.empty(len(y)), np.empty(len(y)), y.copy()
-        rhs(t, y, base)
-        for i in range(len(y)):
-            x[i] = y[i] + steps[i]
-            rhs(t, x, moved)
-            x[i] = y[i]
-            j[:, i] = (moved - base) / steps[i]
+    def forces(x):
+        y, dy = np.zeros(n), np.empty(n)
+        y[~rates] = 1e-6 * x
+        rhs(0.0, y, dy)
+        return masses * dy[rates]
 
-    return jac
-
-
-class Problem:
-    def __init__(self, path, stop, step):
-        scene = tomllib.loads(path.read_text())
-        self.fill, self.count, masses = compile_rhs(scene)
-        self.times, n = np.arange(round(stop / step) + 1) * step, BODIES + 4 * self.count
-        self.rates = np.zeros(n, bool)
-        self.rates[3:6] = self.rates[9:12] = self.rates[13] = True
-        self.rates[BODIES + 2 * self.count :] = True
-        self.masses = np.full(n, masses[3])
-        self.masses[:6], self.masses[6:12], self.masses[12:14] = masses[:3]
-        # Some 5 µm of approach, and that at the balls' 2e5 rad/s.
-        self.scale = np.where(self.rates, 1.0, 5e-6)
-        self.fill_jacobian = compile_jacobian(self.fill, self.scale)
-        self.y0 = self.balance(n)
-        self.fill_jacobian(0.0, self.y0, np.empty((n, n)))
-        self.reference = self.dop853(1e-12)
-        self.own_error = self.error(self.dop853(1e-11))
-
-    def rhs(self, t, y):
-        dy = np.empty(len(y))
-        self.fill(t, y, dy)
-        return dy
-
-    def balance(self, n):
-        """All in balance about the turning cage: forces vanish, looked for from 10 µm of displacement along z on."""
-        masses, found = self.masses[self.rates], np.zeros(n)
-        found[2], found[BODIES + self.count : BODIES + 2 * self.count] = 10e-6, 5e-6
-
-        def forces(x):
-            y = np.zeros(n)
-            y[~self.rates] = 1e-6 * x
-            return masses * self.rhs(0.0, y)[self.rates]
-
-        solved = least_squares(forces, 1e6 * found[~self.rates], method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
-        found[~self.rates] = 1e-6 * solved.x
-        assert np.abs(forces(solved.x)).max() < 1e-6, solved.message
-        return found
-
-    def acceleration(self, rows):
-        return np.array([self.rhs(t, y)[10] for t, y in zip(self.times, rows)])
-
-    def error(self, rows):
-        a, exact = self.acceleration(rows), self.acceleration(self.reference)
-        return np.sqrt(np.mean((a - exact) ** 2) / np.mean(exact**2))
-
-    def dop853(self, rtol):
-        return solve_ivp(self.rhs, (0.0, self.times[-1]), self.y0, "DOP853", self.times, rtol=rtol,
-                         atol=rtol * self.scale).y.T
-
-    def jacobian(self, t, y):
-        j = np.empty((len(y), len(y)))
-        self.fill_jacobian(t, y, j)
-        return j
-
-    def lsoda(self, rtol):
-        return odeint(self.rhs, self.y0, self.times, Dfun=self.jacobian, tfirst=True, rtol=rtol,
-                      atol=rtol * self.scale, mxstep=10**7)
-
-    def cvode(self, rtol):
-        solver = CVODE(lambda t, y, dy: self.fill(t, y, dy), jacfn=lambda t, y, dy, j: self.fill_jacobian(t, y, j),
-                       rtol=rtol, atol=rtol * self.scale, max_num_steps=10**7)
-        return solver.solve(self.times, self.y0).y
+    solved = least_squares(forces, 1e6 * found[~rates], method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    found[~rates] = 1e-6 * solved.x
+    assert np.abs(forces(solved.x)).max() < 1e-6, solved.message
+    return found
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", type=pathlib.Path)
-    parser.add_argument("--stop", type=float, default=0.02)
-    parser.add_argument("--step", type=float, default=1e-5)
-    parser.add_argument("--repeat", type=int, default=3)
-    args = parser.parse_args()
-    problem = Problem(args.scene, args.stop, args.step)
-    print(f"{args.scene.stem}, {args.stop} s: the reference's own error {problem.own_error:.1e}")
-    print("at the start shaft.x .y .z are", *problem.y0[:3], "m")
-    for name, peer in (("LSODA", problem.lsoda), ("CVODE BDF", problem.cvode)):
-        for rtol in TOLERANCES:
-            seconds = math.inf
-            for _ in range(args.repeat):
-                begun = time.process_time()
-                rows = peer(rtol)
-                seconds = min(seconds, time.process_time() - begun)
-            print(f"{name:10} rtol {rtol:.0e}: {seconds / args.stop:8.3f} s/s, error {problem.error(rows):.1e}")
+def problem(scene):
+    rhs, count, (shaft, housing, sensor, ball) = compile_rhs(scene)
+    rates = np.zeros(BODIES + 4 * count, bool)
+    rates[3:6] = rates[9:12] = rates[13] = True
+    rates[BODIES + 2 * count :] = True
+    masses = np.array([shaft] * 3 + [housing] * 3 + [sensor] + [ball] * 2 * count)
+    # Some 5 µm of approach, and that at the balls' 2e5 rad/s.
+    scale = np.where(rates, 1.0, 5e-6)
+    return Problem(rhs, balance(rhs, rates, masses), scale, 10, slice(BODIES, BODIES + count))
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, problem, [1e-8, 1e-9, 1e-10, 1e-11])

@@ -1,6 +1,6 @@
 //! How signals stand in a row of a NumPy file.
 //!
-//! `numpy.load` refuses headers of more than 10 000 characters unless it is told otherwise, and a field for each signal
+//! `numpy.load` refuses headers of more than 10 000 characters unless it is allowed to, and a field for each signal
 //! of some 70 elements makes one. Where that is so, what all elements have is an array, as under FMI 3.0:
 //! `element.path` has an entry for each element, the first for `element[1].path`.
 

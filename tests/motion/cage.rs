@@ -233,17 +233,13 @@ fn a_defect_of_an_element_is_where_the_scene_says_at_the_start() {
 }
 
 #[test]
-fn keys_of_the_cage_are_read_and_refused_with_their_limits() {
+fn keys_of_the_cage_are_read() {
     let text = include_str!("../../scenes/er16k-tb1.toml");
     let with = |keys: &str| {
         let (before, after) = text.split_once("[cage]\n").unwrap();
         brinell_scene_file::from_toml(&format!("{before}[cage]\n{keys}\n{after}"))
     };
     let cage = |keys: &str| with(keys).unwrap().cage.irregularity;
-    let refused = |keys: &str, wanted: &[&str]| {
-        let message = with(keys).unwrap_err().to_string();
-        assert!(wanted.iter().all(|part| message.contains(part)), "{keys}: {message}");
-    };
     assert_eq!(cage("spacing_rms_deg = 0.0\njitter_rms_deg = 0.0\nwander = 0.0"), None);
     // Their sum is taken off.
     let given = cage("spacing_deg = [1, 0, 0, 0, 0, 0, 0, 0, 0.8]").unwrap();
@@ -255,18 +251,4 @@ fn keys_of_the_cage_are_read_and_refused_with_their_limits() {
     assert_eq!(recorded.wander, 0.003);
     let drawn = |seed: u64| cage(&format!("spacing_rms_deg = 0.2\nseed = {seed}")).unwrap().offsets;
     assert!(drawn(1) == drawn(1) && drawn(1) != drawn(2));
-
-    refused("jitter_rms_deg = 0.1", &["cage.seed", "random"]);
-    refused("irregularity = \"recorded\"", &["cage.seed"]);
-    refused("irregularity = \"recorded\"\nseed = 1\nwander = 0.1", &["cage.irregularity", "cage.wander"]);
-    refused("spacing_deg = [0.0]\nspacing_rms_deg = 0.1\nseed = 1", &["cage.spacing_deg", "cage.spacing_rms_deg"]);
-    refused("spacing_deg = [0.1, 0.2]", &["cage.spacing_deg has 2", "9"]);
-    refused("spacing_deg = [90, 0, 0, 0, 0, 0, 0, 0, 0]", &["element 1", "80", "10", "quarter"]);
-    refused("jitter_rms_deg = 11\nseed = 1", &["11", "10 degrees", "quarter"]);
-    refused("jitter_rms_deg = -0.1\nseed = 1", &["cage.jitter_rms_deg", "-0.1", "at least 0"]);
-    refused("spacing_rms_deg = -0.1\nseed = 1", &["cage.spacing_rms_deg", "-0.1"]);
-    refused("wander = 0.2\nseed = 1", &["cage.wander", "0.2", "0.1"]);
-    refused("wander = nan\nseed = 1", &["cage.wander", "NaN"]);
-    refused("irregularity = \"wild\"\nseed = 1", &["wild", "recorded"]);
-    refused("wander = 0.01\nseed = -1", &["seed"]);
 }

@@ -30,5 +30,6 @@ mod starts;
 mod stiffness;
 #[path = "../support/mod.rs"]
 mod support;
+mod trajectories;
 mod unequal_elements;
 mod waviness;

@@ -184,24 +184,6 @@ fn overlaps_and_topographies_too_close_are_refused_with_their_numbers() {
 }
 
 #[test]
-fn what_is_wrong_with_one_of_several_defects_is_said_with_its_number() {
-    let text = include_str!("../../scenes/er16k-inner.toml");
-    let (before, after) = text.split_once("\n[defect]\n").unwrap();
-    let both = |second: &str| {
-        let spall = "on = \"outer\"\nangle_deg = 10\nlength_mm = 1\ndepth_um = 20\n";
-        format!("{before}\n[[defect]]\n{spall}\n[[defect]]\n{second}\n\n[[defect]]\n{after}")
-    };
-    let message = |second: &str| brinell_scene_file::from_toml(&both(second)).unwrap_err().to_string();
-    let deep = message("angle_deg = 0\nlength_mm = 1\ndepth_um = 9000");
-    assert!(deep.contains("[[defect]] number 2") && deep.contains("9000"), "{deep}");
-    // Keys that are missing or unknown, with the lines of the table in question.
-    let line = 1 + before.lines().count() + 1 + 6;
-    let keys = message("angle_deg = 0\nlenght_mm = 1");
-    assert!(keys.contains("lenght_mm") && keys.contains(&format!("line {}", line + 2)), "{keys}, not {line}");
-    assert!(keys.contains("defect.depth_um"), "{keys}");
-}
-
-#[test]
 fn bodies_with_the_same_profile_share_their_contact_maps() {
     let on = |element, length| Defect {
         on: DefectOn::Element { element, tilt: 0.0 },

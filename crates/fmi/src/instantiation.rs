@@ -128,7 +128,7 @@ pub(crate) unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a CStr> {
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) })
 }
 
-/// Ends an instance: what its recorder still holds is stored, or its loss told.
+/// Ends an instance: what its recorder still holds is stored, or its loss reported.
 pub(crate) fn free(instance: handles::Borrowed, function: &'static str) {
     drop(boundary::guard(|| {
         let mut instance = handles::remove(instance);

@@ -2,7 +2,7 @@
 //!
 //! The host is called after each accepted integration step. It may read outputs as they are there and set inputs, which
 //! then act from there on. A run that is inspected so has the bits of one that is not, unless inputs are set. An early
-//! return ends the step where the host was told, or at a later instant that it names, and that exactly.
+//! return ends the step where the host was called, or at a later instant that it names, and that exactly.
 
 use crate::boundary;
 use crate::c_interface::Bool;

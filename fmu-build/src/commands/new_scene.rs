@@ -199,10 +199,6 @@ mod tests {
             assert_eq!((scene.bearing.degrees_of_freedom.count(), scene.shaft.axial.load), (3, expected), "{text}");
             assert_eq!(scene.bearing.contact_angle.is_some(), name != "6205");
         }
-        let refused = text("mine", &catalogued("6205").unwrap(), Asked { axial: Some(0.0), ..Asked::default() })
-            .unwrap_err()
-            .to_string();
-        assert!(refused.contains("--axial 0 N"), "{refused}");
     }
 
     #[test]

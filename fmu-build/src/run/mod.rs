@@ -273,7 +273,7 @@ fn counts(simulation: &mut Simulation) -> Result<String> {
     Ok(format!("{} integration steps and {} rejected", counts[0], counts[1]))
 }
 
-/// Hands a page to the system's browser; where there is none the page's name has been told.
+/// Hands a page to the system's browser; where there is none, the command has printed the page's name.
 fn open(page: &Path) {
     let (program, first) = match std::env::consts::OS {
         "windows" => ("cmd", Some(["/C", "start", ""])),

@@ -162,32 +162,4 @@ mod tests {
             assert!(drawn.iter().zip(&other).all(|(a, b)| a != b));
         }
     }
-
-    #[test]
-    fn what_is_no_spectrum_is_refused_with_line_value_and_limit() {
-        let head = "frequency_hz,amplitude_m_s2_per_sqrt_hz\n";
-        for (text, said) in [
-            (
-                "f,a\n1,2\n",
-                "line 1 is \"f,a\": a spectrum of noise begins with the heading frequency_hz,amplitude_m_s2_per",
-            ),
-            (&format!("{head}10,1e-3\n"), "it has 1 rows of numbers: a spectrum of noise needs at least 2"),
-            (&format!("{head}10,1e-3\n10,1e-3\n"), "line 3: frequency_hz is 10: it must be above 10"),
-            (&format!("{head}-1,1e-3\n10,1e-3\n"), "line 2: frequency_hz is -1: it must be at least 0"),
-            (
-                &format!("{head}1,1e-3\n10,-60\n"),
-                "line 3: amplitude_m_s2_per_sqrt_hz is -60: it must be from 0 to 1000",
-            ),
-            (
-                &format!("{head}1,1e-3\n10,4 dB\n"),
-                "line 3: amplitude_m_s2_per_sqrt_hz is \"4 dB\": it must be a finite number",
-            ),
-            (&format!("{head}1,1,1\n10,1,1\n"), "line 2: \"1,1,1\" has 3 cells"),
-            (&format!("{head}10000,1\n20000,1\n"), "frequency_hz begins with 10000: it must be below 10000, half of"),
-            (&format!("{head}1,0\n2,0\n"), "is 0 in all rows: it must be above 0"),
-        ] {
-            let why = format!("{:#}", NoiseSpectrum::parse(text, RATE).unwrap_err());
-            assert!(why.contains(said), "{why}");
-        }
-    }
 }

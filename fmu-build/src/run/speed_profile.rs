@@ -110,24 +110,4 @@ mod tests {
         let why = profile.check_covers(2.5).unwrap_err().to_string();
         assert!(why.contains("goes to 2.5 s") && why.contains("by 2 s"), "{why}");
     }
-
-    #[test]
-    fn what_is_no_profile_is_refused_with_line_value_and_limit() {
-        let head = "time_s,speed_hz\n";
-        for (rows, said) in [
-            ("", "0 rows of numbers: a speed profile needs at least 2"),
-            ("0,10\n", "1 rows"),
-            ("0.1,10\n1,10\n", "line 2: time_s is 0.1: the first must be 0"),
-            ("0,10\n1,10\n1,12\n", "line 4: time_s is 1: it must be above 1"),
-            ("0,10\n1,ten\n", "line 3: speed_hz is \"ten\": it must be a finite number"),
-            ("0,10\n1,inf\n", "speed_hz is \"inf\""),
-            ("0,10\n1\n", "has 1 cells"),
-            ("0,600\n1,18000\n", "line 3: speed_hz is 18000: it must be between -10000 and 10000; are they rev/min?"),
-        ] {
-            let why = format!("{:#}", SpeedProfile::parse(&format!("{head}{rows}")).unwrap_err());
-            assert!(why.contains(said), "{why}");
-        }
-        let why = format!("{:#}", SpeedProfile::parse("time,rpm\n0,1\n").unwrap_err());
-        assert!(why.contains("\"time,rpm\"") && why.contains("time_s,speed_hz"), "{why}");
-    }
 }

@@ -57,7 +57,7 @@ pub(crate) fn html_file(text: &str) -> Result<PathBuf, String> {
     if ending == "html" || ending == "htm" { Ok(path) } else { Err("it is a page in HTML: name it .html".to_owned()) }
 }
 
-/// Six significant digits, without the trailing noughts that a change of units leaves.
+/// Six significant digits, without the trailing zeros that a change of units leaves.
 pub(crate) fn digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();

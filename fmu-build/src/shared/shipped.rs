@@ -120,25 +120,6 @@ mod tests {
             let files: Vec<_> = files_of(name).unwrap().into_iter().map(|(file, _)| file.to_owned()).collect();
             assert_eq!(files, wanted);
         }
-    }
-
-    #[test]
-    fn a_name_that_is_neither_file_nor_scene_tells_which_scenes_there_are() {
-        let message = scene_text(Path::new("6205-epp")).unwrap_err().to_string();
-        assert!(message.contains("did you mean 6205-epps?"), "{message}");
-        let message = scene_text(Path::new("gearbox")).unwrap_err().to_string();
-        assert!(message.contains("6205-epps, ") && message.contains("6205-healthy"), "{message}");
-        // What looks like a file is spoken of as one.
-        let message = scene_text(Path::new("6205-epp.toml")).unwrap_err().to_string();
-        assert_eq!(message, "6205-epp.toml: no such file; did you mean the shipped scene 6205-epps?");
-        let message = scene_text(Path::new("6205-epps.toml")).unwrap_err().to_string();
-        let expected = "6205-epps.toml: no such file; 6205-epps is a shipped scene: name it as 6205-epps alone, or \
-                        write its file here by `brinell scenes 6205-epps`";
-        assert_eq!(message, expected);
-        let message = scene_text(Path::new("no/6205-epps.toml")).unwrap_err().to_string();
-        assert_eq!(message, format!("no/{expected}"));
-        let message = scene_text(Path::new("no/mine.toml")).unwrap_err().to_string();
-        assert_eq!(message, "no/mine.toml");
         assert!(text_beside(Path::new("no/6205-epps"), "6205-epps-trace.csv").is_err(), "another folder's scene");
     }
 }

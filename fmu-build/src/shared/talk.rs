@@ -17,7 +17,7 @@ pub(crate) fn is_shown() -> bool {
     LEVEL.load(Ordering::Relaxed) >= 0
 }
 
-/// Whether all is told that is done.
+/// Whether every step of the work is reported.
 pub(crate) fn is_detailed() -> bool {
     LEVEL.load(Ordering::Relaxed) > 0
 }

@@ -19,7 +19,6 @@ use serde_json::Value;
 
 const RIGID: &str = "python examples/step_by_step.py --stop 0.06";
 const ROSS: &str = "python examples/rotor_ross.py --stop 1";
-const ERROR: &str = "python examples/coupling_error.py --short";
 const SWEEP: &str = "python examples/sweep.py examples/sweep.toml -o target/labelled";
 const SYSTEMS: &str = "python examples/system_of_fmus.py --build";
 const SYSTEM: &str = "python examples/system_of_fmus.py --short";
@@ -131,7 +130,7 @@ fn blocks(language: &str) -> Vec<String> {
 
 #[test]
 fn every_command_of_the_guide_is_run_here() {
-    let known = [RIGID, ROSS, ERROR, SWEEP, SYSTEMS, SYSTEM, PAIR, PAIRS, RUN_UP_SYSTEM, RUN_UP];
+    let known = [RIGID, ROSS, SWEEP, SYSTEMS, SYSTEM, PAIR, PAIRS, RUN_UP_SYSTEM, RUN_UP];
     let commands: Vec<_> =
         blocks("sh").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
     for command in &commands {

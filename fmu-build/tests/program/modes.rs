@@ -64,18 +64,3 @@ fn rings_that_a_host_moves_hold_still_where_they_carry_the_load() {
     let ratio = fastest(&more) / fastest(&report);
     assert!((ratio - 2f64.powf(1.0 / 6.0)).abs() < 0.01, "{ratio}");
 }
-
-#[test]
-fn what_presses_no_element_is_refused() {
-    let refused = |load: Option<f64>| {
-        let options = Options { load, points: Some(4), figure: false, json: false };
-        let folder = common::folder("modes-none");
-        let error = modes::command(&Project::find(), &common::model("6205-hosted"), options, &folder).unwrap_err();
-        assert!(fs::read_dir(&folder).unwrap().next().is_none());
-        error.to_string()
-    };
-    assert!(refused(None).contains("with --load"), "{}", refused(None));
-    for load in [0.0, -5.0, f64::NAN, f64::INFINITY] {
-        assert!(refused(Some(load)).contains("above 0"));
-    }
-}

@@ -26,19 +26,6 @@ fn run(scene: &Path, out: &Path, more: &[&str]) -> String {
     said
 }
 
-#[track_caller]
-fn refused(scene: &Path, out: &Path, more: &[&str], parts: &[&str]) {
-    let output = try_run(scene, out, more);
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(!output.status.success(), "{more:?} was accepted");
-    for part in parts {
-        assert!(said.contains(part), "`{part}` is missing in: {said}");
-    }
-    let left: Vec<_> =
-        fs::read_dir(out).map(|entries| entries.map(|e| e.unwrap().file_name()).collect()).unwrap_or_default();
-    assert!(left.is_empty(), "left behind: {left:?}");
-}
-
 fn shipped(name: &str) -> PathBuf {
     common::root().join("scenes").join(name).with_extension("toml")
 }
@@ -147,24 +134,6 @@ fn the_shaft_turns_as_the_profile_says_and_the_run_ends_with_it() {
     // Rounding of a thousand steps.
     assert!(most < 1e-9, "the cage is {most} rad off");
     assert!(column(&table, "shaft.force.y").iter().all(|force| (force - 1500.0).abs() < 400.0));
-}
-
-#[test]
-fn a_profile_that_is_none_or_too_short_is_refused() {
-    let folder = common::folder("run-bad-profile");
-    let (profile, out) = (folder.join("speeds.csv"), folder.join("out"));
-    let name = profile.to_str().unwrap();
-    fs::write(&profile, "time_s,speed_hz\n0,10\n0.05,20\n").unwrap();
-    refused(
-        &shipped(QUICK),
-        &out,
-        &["--speed-profile", name, "--stop", "0.1"],
-        &["speeds.csv", "goes to 0.1 s", "by 0.05 s"],
-    );
-    fs::write(&profile, "time_s,speed_hz\n0,10\n0.05,nan\n").unwrap();
-    refused(&shipped(QUICK), &out, &["--speed-profile", name], &["speeds.csv: line 3: speed_hz is \"nan\""]);
-    fs::remove_file(&profile).unwrap();
-    refused(&shipped(QUICK), &out, &["--speed-profile", name], &["speeds.csv", "No such file"]);
 }
 
 #[test]

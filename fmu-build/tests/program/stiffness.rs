@@ -74,17 +74,6 @@ fn a_healthy_bearing_has_no_critical_load_and_a_hosted_one_takes_a_load() {
 }
 
 #[test]
-fn a_load_that_is_no_load_is_refused() {
-    let model = common::model("er16k-tb1");
-    for load in [0.0, -5.0, f64::NAN] {
-        let options = Options { load: Some(load), points: Some(2), figure: false, json: false };
-        let error =
-            stiffness::command(&Project::find(), &model, options, &common::folder("stiffness-none")).unwrap_err();
-        assert!(error.to_string().contains("above 0"), "{error}");
-    }
-}
-
-#[test]
 fn a_bearing_without_a_critical_load_has_its_table_and_is_told_why() {
     let folder = common::folder("stiffness-without-critical-load");
     let text = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();

@@ -1,29 +1,24 @@
 //! Error against CPU time of the time integration, for every shipped scene and every method.
 //!
-//! Errors are against the automatic method at a tolerance of 1e-12. How far that itself can be trusted is measured in
-//! two ways: against the other method of the pair, and, where `tests/oracle` has the same equations, against SciPy's
-//! DOP853 there.
+//! Errors are against the automatic method at a tolerance of 1e-12. How far that itself can be trusted is measured
+//! against the other method of the pair.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use brinell::scene::ContactLaw;
+use anyhow::Result;
 use brinell::simulation::{Method, StepCounts};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Extent;
 use super::machine::{fastest, timed};
-use super::run::{Deviation, RATE, STEP, Signals, Subject};
+use super::run::{Deviation, STEP, Signals, Subject};
 use crate::packed::{self, Packed};
 use fmu_build::package::Model;
-use fmu_build::shared::{Project, Python, whole_file};
+use fmu_build::shared::{Project, whole_file};
 
 /// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.
 const STOP: f64 = 0.025;
-/// Simulated time of the cross-check with SciPy (s).
-const CHECKED: f64 = 0.02;
 /// Tolerances asked for.
 const TOLERANCES: [f64; 9] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 /// The reference's tolerance.
@@ -56,8 +51,6 @@ pub(super) struct Check {
     pub(super) signal: &'static str,
     /// The other method of the pair against the reference.
     pub(super) pair: Deviation,
-    /// SciPy's DOP853 against the same scene with law `hertz`.
-    pub(super) oracle: Option<Deviation>,
 }
 
 /// The results.
@@ -77,7 +70,7 @@ const METHODS: [(&str, Method); 4] = [
 ];
 
 /// Measures and writes `integration.csv`.
-pub(super) fn measure(project: &Project, python: &Python, extent: Extent, data: &Path) -> Result<Integration> {
+pub(super) fn measure(project: &Project, extent: Extent, data: &Path) -> Result<Integration> {
     let names: &[&str] = match extent {
         Extent::Full => &[
             "6205-hosted",
@@ -105,12 +98,10 @@ pub(super) fn measure(project: &Project, python: &Python, extent: Extent, data: 
         bar.inc(1);
         let other = subject.signals(Method::Rodas, 10.0 * REFERENCE)?;
         bar.inc(1);
-        let oracle = if extent == Extent::Full { oracle(python, &model, data)? } else { None };
         results.checks.push(Check {
             scene: subject.name.clone(),
             signal: subject.signal(),
             pair: other.deviation(&reference),
-            oracle,
         });
         for (label, method) in METHODS {
             for &tolerance in tolerances {
@@ -166,48 +157,6 @@ fn controlled(
         implicit: counts.implicit as f64 / counts.all as f64,
         deviation: signals.deviation(reference),
     })
-}
-
-/// The same scene with law `hertz` against `tests/oracle`; `None` where that has not all of the scene's parts.
-fn oracle(python: &Python, model: &Model, data: &Path) -> Result<Option<Deviation>> {
-    use brinell::scene::Motion::Internal;
-    let scene = &model.scene;
-    let parts = (scene.shaft.motion, scene.housing.motion) == (Internal, Internal) && model.profiles.is_empty();
-    if !parts || scene.bearing.outer_compliance != 0.0 {
-        return Ok(None);
-    }
-    let mut hertz = model.clone();
-    hertz.scene.contact.law = ContactLaw::Hertz;
-    let subject = Subject::new(&hertz, scene.name.clone(), CHECKED)?;
-    let ours = subject.signals(Method::Automatic, REFERENCE)?;
-    let folder = tempfile::tempdir()?;
-    let (input, output) = (folder.path().join("scene.toml"), folder.path().join("oracle.csv"));
-    fs::write(&input, &model.scene_text)?;
-    let step = (1.0 / RATE).to_string();
-    let options = ["--stop", &CHECKED.to_string(), "--step", &step, "-o"].map(std::ffi::OsString::from);
-    let arguments = [input.into_os_string()].into_iter().chain(options).chain([output.clone().into_os_string()]);
-    python
-        .run_file(&root().join("tests/oracle/reference.py"), arguments)
-        .with_context(|| data.display().to_string())?;
-    Ok(Some(read_oracle(&fs::read_to_string(output)?, &ours)))
-}
-
-/// The oracle's rows beside ours; its last one, at the very end, is no sample of ours.
-fn read_oracle(text: &str, ours: &Signals) -> Deviation {
-    let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let mut theirs = Signals { acceleration: Vec::new(), paths: Vec::new() };
-    for line in lines.take(ours.acceleration.len()) {
-        for (name, value) in names.iter().zip(line.split(',')) {
-            let value = value.parse().unwrap_or(f64::NAN);
-            if *name == "housing.ay" {
-                theirs.acceleration.push(value);
-            } else if name.ends_with(".path") {
-                theirs.paths.push(value);
-            }
-        }
-    }
-    theirs.deviation(ours)
 }
 
 fn root() -> PathBuf {

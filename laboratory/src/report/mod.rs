@@ -36,7 +36,7 @@ pub fn command(project: &Project, extent: Extent, folder: &Path) -> Result<()> {
     let [data, figures] = folders(folder)?;
     let python = Python::prepare(project)?;
     let contacts = contact::measure(extent, &data)?;
-    let integration = integration::measure(project, &python, extent, &data)?;
+    let integration = integration::measure(project, extent, &data)?;
     let stem = figures.join("error-vs-run-time");
     let script = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/python/report.py"));
     print!("{}", python.run_file(script, [data.as_os_str(), stem.as_os_str()])?);

@@ -9,7 +9,7 @@ use fmu_build::package::Model;
 use crate::packed::HELD;
 
 /// Rate at which runs are compared (Hz): above every frequency that a housing sensor sees.
-pub(super) const RATE: f64 = 100_000.0;
+const RATE: f64 = 100_000.0;
 /// Communication step of the runs (s).
 pub(super) const STEP: f64 = 1e-4;
 

@@ -90,7 +90,7 @@ pub fn with_operating_angle(scene: &Scene) -> Cow<'_, Scene> {
     let mut angle = 0.0f64;
     for _ in 0..MOST {
         scene.bearing.operating_angle = Some(angle);
-        // Where there is no balance, it is told when the start is looked for.
+        // Where there is no balance, it is reported when the start is looked for.
         let Some(next) = balanced_angle(&scene) else { break };
         let settled = (next - angle).abs() < SETTLED;
         angle = next;

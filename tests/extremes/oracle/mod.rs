@@ -1,5 +1,6 @@
-//! Extremes without a closed form: against equations written separately and integrated by SciPy's DOP853 at 1e-12
-//! (`tests/oracle/extremes.py`), whose forces are kept in `oracle.csv`.
+//! Extremes without a closed form: against equations written separately in Python and integrated by SciPy's DOP853 at
+//! 1e-12, whose forces are kept in `oracle.csv` (commit 1df39393 has the program, `tests/oracle`); in space against the
+//! oracle of the random scenes.
 
 pub mod in_space;
 
@@ -8,7 +9,6 @@ use crate::scenes::Kind;
 use crate::support::Named;
 use brinell::scene::Scene;
 use brinell::simulation::Method;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Names of the forces that are compared, in the order of `oracle.csv`.
@@ -142,26 +142,15 @@ fn scene(case: &toml::Table) -> Scene {
 }
 
 fn oracle(what: &str) -> Oracle {
-    let text = std::fs::read_to_string(folder().join("oracle.csv")).unwrap();
-    let mut lines = text.lines();
-    let mut head = "what,step".to_owned();
-    for name in NAMES {
-        write!(head, ",{name}").unwrap();
-    }
-    assert_eq!(lines.next(), Some(format!("{head},own_error").as_str()));
+    let mut reader = csv::Reader::from_path(folder().join("oracle.csv")).unwrap();
+    let names: Vec<&str> = ["what", "step"].into_iter().chain(NAMES).chain(["own_error"]).collect();
+    assert_eq!(reader.headers().unwrap(), &names);
     let mut found = Oracle { samples: Vec::new(), own_error: 0.0 };
-    for line in lines {
-        // A name with a comma in it stands in quotation marks.
-        let (name, rest) = match line.strip_prefix('"') {
-            Some(line) => line.split_once("\",").unwrap(),
-            None => line.split_once(',').unwrap(),
-        };
-        if name == what {
-            let values: Vec<f64> = rest.split(',').map(|value| value.parse().unwrap()).collect();
-            found.samples.push((values[0] as usize, [1, 2, 3, 4, 5].map(|i| values[i])));
-            found.own_error = values[6];
-        }
+    for row in reader.records().map(Result::unwrap).filter(|row| &row[0] == what) {
+        let values: Vec<f64> = row.iter().skip(1).map(|value| value.parse().unwrap()).collect();
+        found.samples.push((values[0] as usize, std::array::from_fn(|i| values[1 + i])));
+        found.own_error = values[6];
     }
-    assert!(!found.samples.is_empty(), "oracle.csv lacks {what}: run tests/oracle/extremes.py");
+    assert!(!found.samples.is_empty(), "oracle.csv lacks {what}: give it a `reference`");
     found
 }

@@ -38,7 +38,7 @@ struct Level {
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
     product: Vec<f64>,
-    /// One on cells of the set, nought elsewhere.
+    /// One on cells of the set, zero elsewhere.
     active: Vec<f64>,
     /// Largest pressure over π E*.
     highest: f64,

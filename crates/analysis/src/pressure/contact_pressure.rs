@@ -36,22 +36,14 @@ const FORCE_RESIDUAL: f64 = 1e-6;
 /// Why there is no pressure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum PressureError {
     /// Rollers have no point contact.
     #[error("bearing.element is \"cylindrical-roller\": contact pressure is worked out for balls only")]
     Roller,
     /// A number that is out of its range.
     #[error("{quantity} {value} {unit}: it must be {limit}")]
-    OutOfRange {
-        /// What.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-        /// What is allowed.
-        limit: &'static str,
-    },
+    OutOfRange { quantity: &'static str, value: f64, unit: &'static str, limit: &'static str },
     /// The contact is not small against the ball.
     #[error(
         "contact force {force} N: the contact reaches {percent:.0} % of the radius of ball or groove, beyond which the \

@@ -1,4 +1,4 @@
-//! What is told of a contact: its pressure against Hertz's, and the stresses below it along depth and in two planes.
+//! The report on a contact: its pressure against Hertz's, and the stresses below it along depth and in two planes.
 
 use super::contact_pressure::{BallOnRaceway, Pressed};
 use super::subsurface::{Corners, Stress, maximum};
@@ -164,7 +164,7 @@ pub struct Highest {
 }
 
 impl ContactReport {
-    /// What is told of this contact under the force (N) that was asked for.
+    /// What is reported of this contact under the force (N) that was asked for.
     pub fn new(
         scene: &str,
         side: RacewaySide,

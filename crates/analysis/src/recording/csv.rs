@@ -143,27 +143,6 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_read_as_it_is_said_to_be_written_is_refused_by_line_with_the_options() {
-        let refused = |text: &str, format| columns(text, "csv", format).unwrap_err();
-        for (text, format, parts) in [
-            ("1\n2\nx\n", TextFormat::default(), &["line 3", "'x'", "--delimiter"][..]),
-            ("a,b\n1,2\n3\n", TextFormat::default(), &["line 3", "1 columns"]),
-            ("time;acc\n0.0;1.5\n", TextFormat::default(), &["'0.0;1.5'", "parted by ','", "--delimiter"]),
-            ("time;acc\n0,0;1,5\n", with(';', '.'), &["'0,0;1,5'", "decimals by '.'", "--decimal"]),
-            // A point where thousands may be parted by it.
-            ("a;b\n1;0,5\n2;1.234\n", with(';', ','), &["line 3", "'1.234'"]),
-            ("", TextFormat::default(), &["no line of numbers"]),
-            ("only words\nand more\n", TextFormat::default(), &["no line of numbers"]),
-            ("1\n", with(',', ','), &["delimiter ','"]),
-            ("1\n", with(';', ';'), &["decimal sign ';'"]),
-            ("1\n", with('é', '.'), &["delimiter 'é'"]),
-        ] {
-            let why = refused(text, format);
-            assert!(parts.iter().all(|part| why.contains(part)), "{text}: {why}");
-        }
-    }
-
-    #[test]
     fn not_a_number_is_read_as_such_and_left_to_the_recordings_check() {
         assert!(columns("1\nNaN\n3\n", "csv", TextFormat::default()).unwrap().1[0][1].is_nan());
     }

@@ -6,20 +6,15 @@ use std::path::PathBuf;
 /// A recording that cannot be read or cannot be sized, whatever the bearing's state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum SizingError {
     /// The file could not be read. The message includes the cause, which is therefore no `source`: whoever prints the
     /// chain would tell it twice.
     #[error("{path}: {cause}")]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        cause: std::io::Error,
-    },
+    File { path: PathBuf, cause: std::io::Error },
     /// The file is not what its ending says, or of a kind that is not read.
     #[error("{path}: {why}")]
     Format {
-        /// The file.
         path: PathBuf,
         /// What is wrong, and what would be right.
         why: String,
@@ -27,11 +22,9 @@ pub enum SizingError {
     /// The column that counts time or samples is uneven.
     #[error("{path}: {column}: {why}")]
     Times {
-        /// The file.
         path: PathBuf,
         /// Heading of the column, or its number.
         column: String,
-        /// What is wrong.
         why: Box<Uneven>,
     },
     /// No recordings were given.
@@ -40,50 +33,30 @@ pub enum SizingError {
     /// A recording was given twice.
     #[error("{name} and {other} have equal samples: a recording counts once")]
     Twice {
-        /// The recording.
         name: String,
         /// The one before it.
         other: String,
     },
     /// A quantity that must be positive and finite is not.
     #[error("{name}: {quantity} {value} {unit}: it must be finite and above 0")]
-    NotPositive {
-        /// The recording.
-        name: String,
-        /// The quantity.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
+    NotPositive { name: String, quantity: &'static str, value: f64, unit: &'static str },
     /// A sample is not a number.
     #[error("{name}: sample {index} is {value}: samples must be finite")]
     NotFinite {
-        /// The recording.
         name: String,
         /// Index of the sample, from 0.
         index: usize,
-        /// The sample.
         value: f64,
     },
     /// All samples are equal.
     #[error("{name}: all {count} samples are {value}: a constant carries no vibration")]
-    Constant {
-        /// The recording.
-        name: String,
-        /// Number of samples.
-        count: usize,
-        /// Their value.
-        value: f64,
-    },
+    Constant { name: String, count: usize, value: f64 },
     /// Squares of the samples would overflow or vanish.
     #[error(
         "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within \
          ±{highest:e}; choose another unit"
     )]
     Magnitude {
-        /// The recording.
         name: String,
         /// Smallest sample.
         low: f64,
@@ -97,11 +70,9 @@ pub enum SizingError {
     /// The signal sits at its limits.
     #[error("{name}: {percent:.2} % of the samples sit in runs at the extreme value {value}: clipped; limit {limit} %")]
     Clipped {
-        /// The recording.
         name: String,
         /// Share of samples in runs at the extremes (%).
         percent: f64,
-        /// The extreme.
         value: f64,
         /// Largest share allowed (%).
         limit: f64,
@@ -112,7 +83,6 @@ pub enum SizingError {
          {limit} are needed"
     )]
     TooShort {
-        /// The recording.
         name: String,
         /// Duration (s).
         duration: f64,
@@ -129,7 +99,6 @@ pub enum SizingError {
          {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
     )]
     TooCoarse {
-        /// The recording.
         name: String,
         /// Samples between one element and the next.
         samples: f64,
@@ -145,7 +114,6 @@ pub enum SizingError {
     /// The tachometer column gives no speed.
     #[error("{name}: {pulses} tachometer pulses: at least {limit} are needed")]
     Tachometer {
-        /// The recording.
         name: String,
         /// Rising edges.
         pulses: usize,
@@ -155,7 +123,6 @@ pub enum SizingError {
     /// The column beside the signal is not as long.
     #[error("{name}: {other} samples of tachometer or speed beside {samples} of the signal: they must be equally many")]
     OtherLength {
-        /// The recording.
         name: String,
         /// Length of the column.
         other: usize,
@@ -165,7 +132,6 @@ pub enum SizingError {
     /// The speed varies too much.
     #[error("{name}: shaft speed from {low:.3} to {high:.3} Hz: the fastest may be at most {limit} times the slowest")]
     SpeedRange {
-        /// The recording.
         name: String,
         /// Lowest speed (Hz).
         low: f64,
@@ -177,7 +143,6 @@ pub enum SizingError {
     /// The signal does not say how fast the shaft turns.
     #[error("{name}: {why}; give the speed, or other limits for it")]
     NoSpeed {
-        /// The recording.
         name: String,
         /// What it shows instead.
         why: String,
@@ -185,7 +150,6 @@ pub enum SizingError {
     /// The rate contradicts the file.
     #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
     OtherRate {
-        /// The recording.
         name: String,
         /// The rate that was given (Hz).
         given: f64,

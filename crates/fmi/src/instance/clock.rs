@@ -31,7 +31,7 @@ const OF_STEP: f64 = 1e-2;
 pub(crate) struct Clock {
     /// Start of the experiment (s).
     pub(crate) start: f64,
-    /// End of the experiment (s), when the host has told one.
+    /// End of the experiment (s), when the host has given one.
     pub(crate) stop: Option<f64>,
     /// The communication point reached (s).
     pub(crate) time: f64,

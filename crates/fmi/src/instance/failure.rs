@@ -91,7 +91,6 @@ pub(crate) enum Failure {
     /// A variable that an intermediate update may not touch.
     #[error("variable {name} cannot be {what} in an intermediate update: {why}")]
     NotIntermediate {
-        /// Its name.
         name: String,
         /// What was tried.
         what: &'static str,
@@ -144,7 +143,6 @@ pub(crate) enum Failure {
     /// Samples that could not be stored when a run ended.
     #[error("{cause}. {} {fate}", unstored(.samples))]
     Unstored {
-        /// Why not.
         cause: RecordingError,
         /// Those samples.
         samples: Option<Unstored>,
@@ -153,12 +151,7 @@ pub(crate) enum Failure {
     },
     /// A result that is not a number, or infinite.
     #[error("variable {name} is {value}; it is not handed out. Check the inputs and the step size")]
-    NotFinite {
-        /// Its name.
-        name: String,
-        /// Its value.
-        value: f64,
-    },
+    NotFinite { name: String, value: f64 },
     /// A handle of a state that this instance did not give out, or that was freed.
     #[error(
         "the FMU state is not one of this instance's: initialise the variable to NULL before a state is saved to it, \
@@ -170,12 +163,7 @@ pub(crate) enum Failure {
     Blob(#[from] BlobError),
     /// A buffer of another size than the state needs.
     #[error("size {given}: the serialized state has {needed} bytes")]
-    Size {
-        /// Size given.
-        given: usize,
-        /// Size needed.
-        needed: usize,
-    },
+    Size { given: usize, needed: usize },
     /// A status that cannot be asked for here.
     #[error("status kind {0} is not known to this function")]
     UnknownStatus(c_int),

@@ -24,7 +24,7 @@ const HEAVIER: f64 = 8.0;
 pub(crate) struct Instance {
     /// Mode, which decides what may be called.
     pub(crate) mode: Mode,
-    /// Where the experiment begins, is, and ends; `None` before the host has told.
+    /// Where the experiment begins, is, and ends; `None` before the host has given it.
     pub(crate) clock: Option<Clock>,
     /// Status of the last step.
     pub(crate) last_step: Status,
@@ -232,7 +232,7 @@ impl Instance {
         self.logger.line(Status::Ok, line);
     }
 
-    /// Stores what the recorder still holds. What becomes of it if that fails is told as `fate`: never more than a
+    /// Stores what the recorder still holds. What becomes of it if that fails is `fate`: never more than a
     /// warning, for the run itself is as good as it was.
     pub(crate) fn finish_recording(&mut self, fate: &'static str) -> Result<(), Failure> {
         let Some(recording) = &mut self.recording else { return Ok(()) };

@@ -30,69 +30,6 @@ fn a_folder_of_another_sweep_is_refused_with_what_is_different() {
 }
 
 #[test]
-fn all_faults_of_a_sweep_are_told_with_their_lines() {
-    let folder = common::folder("sweep-faults");
-    let path = file(
-        &folder,
-        r#"scene = "er16k-tb1"
-run = 5
-seed = -1
-kinds = ["outer", "iner"]
-noise_db = [30, 10]
-settle_s = 0.5
-[set]
-contact.law = "herz"
-[grid]
-defect.depth_um = [50, -50]
-cage.slipp = [0.1]
-shaft.load_n = 5
-[random]
-defect.length_mm = [2, 1]
-housing.mass_kg = [1, 2]
-defect.depth_um = [1, 2]
-bearing.element_count = [8.5, 10]
-"#,
-    );
-    let said = refused(&path, &folder.join("out"), &[]);
-    for part in [
-        "line 2: run is unknown: did you mean runs?",
-        "line 3: seed is -1: it must be a whole number from 0",
-        "line 4: kinds: \"iner\" is none of healthy, outer, inner, element; did you mean inner?",
-        "line 5: noise_db is [30, 10]: it must be a ratio, or a list of two, the lower one first, from -60 to 200",
-        "line 6: settle_s is 0.5: it must be a number, from 0 to below stop_s",
-        "line 8: contact.law is \"herz\"",
-        "did you mean \"hertz\"?",
-        "line 10: ",
-        "is -50",
-        "line 11: cage.slipp is unknown: did you mean slip?",
-        "line 12: grid.shaft.load_n is 5: it must be a list of values, one at least",
-        "line 14: random.defect.length_mm is [2, 1]: it must be a list of two numbers, the lower one first",
-        "line 16: defect.depth_um stands in line 10 already",
-    ] {
-        assert!(said.contains(part), "`{part}` is missing in: {said}");
-    }
-    assert!(!said.contains("line 15"), "{said}");
-    assert!(!folder.join("out").exists(), "a folder of a sweep that cannot be");
-    for (text, part) in [
-        ("scene = \"er16k-tb1", "TOML parse error at line 1, column 19\n"),
-        ("runs = 1\n", "scene is missing"),
-        ("scene = \"er16k-tb3\"\n", "line 1: scene: er16k-tb3: neither a file nor a shipped scene; did you mean"),
-        ("scene = \"er16k-tb1\"\n[random]\nshaft.load_n = [1, 2]\n", "runs is missing"),
-        (
-            "scene = \"6205-two-defects\"\n[grid]\ndefect.depth_um = [50]\n",
-            "line 3: defect.depth_um: the scene has several",
-        ),
-        (
-            "scene = \"6205-healthy\"\nspeed_profiles = [\"up.csv\"]\n[grid]\nshaft.speed_hz = [5]\n",
-            "exclude each other",
-        ),
-    ] {
-        let said = refused(&file(&folder, text), &folder.join("out"), &[]);
-        assert!(said.contains(part), "`{part}` is missing in: {said}");
-    }
-}
-
-#[test]
 fn the_example_is_a_sweep_and_names_every_key() {
     let folder = common::folder("sweep-example");
     let example = common::root().join("examples/sweep.toml");

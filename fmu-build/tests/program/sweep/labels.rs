@@ -1,6 +1,6 @@
 //! Labels in the words of public collections, and a floor of noise.
 
-use super::{QUICK, column, file, program, refused, sweep};
+use super::{QUICK, column, file, program, sweep};
 use crate::common;
 use parquet::record::Field;
 use std::fs;
@@ -45,13 +45,6 @@ fn runs_are_labelled_in_the_words_of_public_collections_and_the_healthy_are_not_
     assert!(number("speed_rpm").iter().zip(hertz).all(|(rpm, hertz)| (rpm / 60.0 / hertz - 1.0).abs() < 1e-11));
     // Pink noise of 0.25: in 20 ms a third of it is too slow to vary; a healthy bearing alone moves by thousandths.
     assert!(number("rms_m_s2").iter().all(|rms| *rms > 0.1), "{:?}", number("rms_m_s2"));
-    let why = refused(&file(&folder, &text_with(QUICK, "noise_color = \"blue\"")), &folder.join("blue"), &[]);
-    assert!(why.contains("noise_color is \"blue\"") && why.contains("pink"), "{why}");
-}
-
-/// A sweep with another line.
-fn text_with(text: &str, line: &str) -> String {
-    text.replace("seed = 3\n", &format!("seed = 3\n{line}\n"))
 }
 
 #[test]

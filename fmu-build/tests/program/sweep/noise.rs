@@ -46,20 +46,3 @@ fn noise_of_a_spectrum_has_equal_bits_in_parts_and_another_spectrum_is_another_s
     with_spectrum(&folder, &FLAT.replace("12800,1", "12800,2"));
     assert!(refused(&path, &one, &["--signals", "array"]).contains("file \"floor.csv\""));
 }
-
-#[test]
-fn a_file_that_is_no_spectrum_is_refused_before_anything_runs() {
-    let folder = common::folder("sweep-spectrum-faults");
-    for (spectrum, parts) in [
-        (FLAT.replace("0,1\n", "0,-1\n"), ["line 2", "amplitude_m_s2_per_sqrt_hz is -1: it must be from 0 to 1000"]),
-        (FLAT.replace("12800", "0"), ["line 3", "frequency_hz is 0: it must be above 0, that of the row before"]),
-        (FLAT.replace("0,1\n12800,1", "13000,1\n14000,1"), ["begins with 13000", "below 12800, half of rate_hz"]),
-    ] {
-        let said = refused(&with_spectrum(&folder, &spectrum), &folder.join("out"), &[]);
-        assert!(parts.iter().all(|part| said.contains(part)) && said.contains("floor.csv"), "{said}");
-    }
-    fs::remove_file(folder.join("floor.csv")).unwrap();
-    let said = refused(&folder.join("sweep.toml"), &folder.join("out"), &[]);
-    assert!(said.contains("floor.csv"), "{said}");
-    assert!(!folder.join("out").exists(), "a folder of a sweep that cannot be");
-}
