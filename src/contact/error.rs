@@ -8,19 +8,11 @@ fn prepared(lower: f64, upper: f64) -> String {
 /// Why a contact could not be solved or a map not be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum ContactError {
     /// An input is not a finite number, or out of its range.
     #[error("{quantity} is {value:e} {unit}, it must be {limit}")]
-    BadInput {
-        /// What.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// SI unit.
-        unit: &'static str,
-        /// What is allowed.
-        limit: String,
-    },
+    BadInput { quantity: &'static str, value: f64, unit: &'static str, limit: String },
     /// Measured points farther apart than the grid's cells: what the grid would resolve was never measured.
     #[error(
         "defect profile: points are {step_um:.2} um apart {direction} the raceway at {at_mm:.4} mm, the limit is a \
@@ -138,7 +130,6 @@ pub enum ContactError {
         prepared(*lower, *upper)
     )]
     OutOfRange {
-        /// What.
         quantity: &'static str,
         /// Its value (m).
         value: f64,
@@ -149,10 +140,7 @@ pub enum ContactError {
     },
     /// Stored map that cannot be trusted.
     #[error("contact map refused: {reason}")]
-    MapRefused {
-        /// Why.
-        reason: String,
-    },
+    MapRefused { reason: String },
     /// The map did not reach the accuracy asked for.
     #[error(
         "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells \

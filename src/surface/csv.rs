@@ -30,7 +30,7 @@ fn column_order<const N: usize>(
     let mut order = Vec::with_capacity(N);
     for cell in cells(header) {
         let Some(index) = columns.iter().position(|&column| column == cell) else {
-            // A file without a header is best told that its header is missing.
+            // Of a file without a header the message says that its header is missing.
             if cell.parse::<f64>().is_ok() {
                 return Err(missing(line, columns[0], header));
             }

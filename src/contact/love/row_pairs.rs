@@ -12,7 +12,7 @@ use super::half_space::KernelTable;
 pub(super) const SEGMENT: usize = 8;
 /// Segments treated side by side: a sum that waits for itself leaves room for three others.
 const TOGETHER: usize = 4;
-/// Noughts behind a line of the kernel, for segments that end beyond it.
+/// Zeros behind a line of the kernel, for segments that end beyond it.
 const BEYOND: usize = 32;
 
 /// Which halves of the contact mirror each other, so that only one of them is unknown.
