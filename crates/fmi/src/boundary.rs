@@ -7,6 +7,7 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use crate::arithmetic::UsualArithmetic;
 use crate::c_interface::{Component, Status};
 use crate::instance::{Borrowed, Failure, Function, Instance, Mode, handles};
 
@@ -25,6 +26,7 @@ pub(crate) fn call_lending<B>(component: Component, function: &'static Function,
 where
     B: FnOnce(&mut Borrowed) -> Result<(), Failure>,
 {
+    let _usual = UsualArithmetic::begin();
     // There is no instance, so there is no logger: the status has to say it all.
     let Ok(mut instance) = handles::borrow(component) else { return Status::Error };
     if !function.allowed.contains(instance.mode) {
@@ -75,6 +77,7 @@ fn fail(instance: &mut Instance, function: &'static Function, failure: Failure) 
 
 /// Runs code that has no instance yet. `None` if it panics.
 pub(crate) fn guard<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+    let _usual = UsualArithmetic::begin();
     catch_unwind(AssertUnwindSafe(body)).map_err(words)
 }
 

@@ -1,12 +1,13 @@
 //! A Brinell bearing as hosts of the Functional Mock-up Interface see it: the dynamic library inside an FMU.
 //!
 //! The only crate of the workspace that exports C functions, and tests and benches aside the only one with `unsafe`
-//! code. It touches no floating-point control state, starts no thread, keeps nothing in thread-local storage and prints
-//! nothing.
+//! code. It leaves the floating-point control state as it was, starts no thread, keeps nothing in thread-local storage
+//! and prints nothing.
 //!
 //! | file or folder | knows |
 //! |---|---|
 //! | `c_interface` | the C types that both versions share, callbacks, the logger, addresses of files |
+//! | `arithmetic` | the processor's rounding during a call, whatever the host's is |
 //! | `arguments` | how an argument from C becomes a slice or a string |
 //! | `both_versions` | what the functions of both versions share: those that differ by their names alone, variables of
 //! all types, model exchange |
@@ -20,6 +21,7 @@
 #![allow(unsafe_code)]
 
 pub(crate) mod arguments;
+pub(crate) mod arithmetic;
 mod both_versions;
 pub(crate) mod boundary;
 mod c_interface;
