@@ -1,6 +1,6 @@
 //! Every command that README and the pages of `docs/how-to` and `docs/reference` show is typed here, in an empty folder
-//! for each page, with the files that its text says a user has: README's always, those of the pages at night. Always the
-//! program has to know their words.
+//! for each page, with the files that its text says a user has: README's always, those of the pages at night; but their
+//! words must always be known to the program.
 //!
 //! A command whose comment begins with `# minutes` or `# hours` is left to the tests at night or to those who write
 //! pages; what needs the repository or an environment of its own is typed by the tests of [`ELSEWHERE`].
