@@ -1,6 +1,6 @@
 //! The processor's arithmetic during a call: rounding to nearest, small numbers as they are. Some hosts round otherwise
-//! or take denormals for 0, in threads of their own; what the model gives, and shares between instances, must not depend
-//! on whose thread it was made in.
+//! or take denormals for 0 in their threads; what the model gives, and what instances share, must not depend on the
+//! thread that it was made in.
 
 /// The usual arithmetic in this thread, until it is dropped; then the host's is back.
 pub(crate) struct UsualArithmetic {
