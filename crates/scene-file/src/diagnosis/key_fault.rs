@@ -77,7 +77,7 @@ impl fmt::Display for Hint {
         match self {
             Self::DidYouMean(key) => write!(f, "did you mean {key}?"),
             Self::BelongsTo(table) => write!(f, "it belongs to [{table}]"),
-            Self::Takes(keys) if keys.is_empty() => f.write_str("its table has no keys"),
+            Self::Takes([]) => f.write_str("its table has no keys"),
             Self::Takes(keys) => write!(f, "known here are {}", keys.join(", ")),
         }
     }
