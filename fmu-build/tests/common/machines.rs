@@ -14,6 +14,7 @@ pub(crate) fn compiled(target: Target, what: &[&str]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("host");
     let toolchain = Toolchain::new(&Project::find(), &package, target, false).unwrap();
     let output = Command::new(toolchain::cargo())
+        .env_remove("RUSTC_WORKSPACE_WRAPPER")
         .current_dir(&package)
         .args(["build", "--release", "--locked", "--target", target.triple, "--target-dir"])
         .arg(&folder)
