@@ -80,7 +80,7 @@ fn wheel(
         command.args(["--compatibility", "manylinux2014"]);
     }
     for target in platform.targets {
-        command.envs(Toolchain::new(project, source, *target, false)?.variables);
+        Toolchain::new(project, source, *target, false)?.set_up(&mut command);
     }
     let status = command.status().context("cannot start maturin")?;
     if !status.success() {

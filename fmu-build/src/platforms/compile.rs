@@ -79,13 +79,11 @@ fn add_files(path: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
 fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchain) -> Result<PathBuf> {
     let cargo = toolchain::cargo();
     note!("compiling the model library for {} (once)", target.compiled_as());
-    let output = Command::new(&cargo)
+    let output = toolchain
+        .set_up(&mut Command::new(&cargo))
         .current_dir(source)
         .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library"])
         .args(["--target", target.compiled_as(), "--locked", "--message-format", "json-render-diagnostics"])
-        .envs(toolchain.variables.iter().map(|(name, value)| (name, value)))
-        // Crates behind one have other names, and a library other bytes.
-        .env_remove("RUSTC_WORKSPACE_WRAPPER")
         .stderr(Stdio::inherit())
         .output()
         .with_context(|| format!("cannot start {} to compile the model library", cargo.display()))?;

@@ -58,6 +58,13 @@ impl Toolchain {
         Ok(made)
     }
 
+    /// Gives a command that calls cargo its environment. A wrapper of the caller's around the compiler is left out:
+    /// crates behind one have other names, and a library other bytes.
+    pub fn set_up<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        let variables = self.variables.iter().map(|(name, value)| (name, value));
+        command.envs(variables).env_remove("RUSTC_WORKSPACE_WRAPPER")
+    }
+
     fn link_by_zig(&mut self, project: &Project, target: Target, name: &str) -> Result<()> {
         // The script that calls zig is one of Unix; and a Mac or a Windows links for itself.
         let useful = cfg!(unix) && (!target.is_host() || cfg!(target_os = "linux"));

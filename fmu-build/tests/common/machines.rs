@@ -13,13 +13,12 @@ pub(crate) fn compiled(target: Target, what: &[&str]) -> PathBuf {
     let package = super::common::root().join("tests/host");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("host");
     let toolchain = Toolchain::new(&Project::find(), &package, target, false).unwrap();
-    let output = Command::new(toolchain::cargo())
-        .env_remove("RUSTC_WORKSPACE_WRAPPER")
+    let output = toolchain
+        .set_up(&mut Command::new(toolchain::cargo()))
         .current_dir(&package)
         .args(["build", "--release", "--locked", "--target", target.triple, "--target-dir"])
         .arg(&folder)
         .args(what)
-        .envs(toolchain.variables)
         // The library that Wine lacks has no unwinding.
         .env("CARGO_PROFILE_RELEASE_PANIC", "abort")
         .output()
