@@ -68,6 +68,19 @@ fn the_jacobian_is_the_quotient_of_differences() {
                 );
             }
         }
+        for shift in [1e2, 1e5, 1e9] {
+            jacobian.factor(shift);
+            let is_used = |i: &usize| model.layout.is_used(*i);
+            let b: Vec<f64> = (0..len).map(|i| if is_used(&i) { (1.7 * i as f64).sin() } else { 0.0 }).collect();
+            let mut x = b.clone();
+            jacobian.solve(&mut x);
+            for row in (0..len).filter(is_used) {
+                let terms = |k: usize| (if k == row { shift } else { 0.0 } - matrix[row][k]) * x[k];
+                let (sum, size) = (0..len).map(terms).fold((0.0, b[row].abs()), |(a, b), t| (a + t, b + t.abs()));
+                // Rounding of the largest terms, and some growth in the elimination.
+                assert!((sum - b[row]).abs() < 1e-12 * size, "{} at {shift}: {sum}", model.layout.name(row));
+            }
+        }
         let found = quotient(&mut |by| rate(by, &state), 1e-8);
         let scale = jacobian.by_time.iter().fold(0.0f64, |most, rate| most.max(rate.abs()));
         for row in 0..len {

@@ -6,7 +6,7 @@ use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 
 /// What a contact of an element follows from, on either raceway.
@@ -54,17 +54,21 @@ pub(super) struct OnElement<T> {
     pub(super) frame: Frame,
 }
 
-/// Forces on one element in parts along e_r and e_t, of the outer contact inwards.
+/// Forces of both contacts on an element (N), in parts along e_r and e_t, of the outer contact inwards.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct ContactForces<T: Scalar = f64> {
+    pub(in crate::dynamics) inner: Vector<T>,
+    pub(in crate::dynamics) outer: Vector<T>,
+}
+
+/// The forces on one element, and what their torques ask for.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct ElementForces<T: Scalar = f64> {
     /// The element, at this motion.
     pub(in crate::dynamics) at: ElementMotion<T>,
     /// Distance from the outer ring's centre (m).
     pub(in crate::dynamics) rho: T,
-    /// Force of the inner contact (N).
-    pub(in crate::dynamics) inner: Vector<T>,
-    /// Force of the outer contact (N).
-    pub(in crate::dynamics) outer: Vector<T>,
+    pub(in crate::dynamics) forces: ContactForces<T>,
     /// Direction, along e_r and e_t, and length of q (m).
     pub(in crate::dynamics) n: [T; 2],
     pub(in crate::dynamics) distance: T,
@@ -81,17 +85,38 @@ pub(in crate::dynamics) struct BodyTorque<T = f64> {
     pub(in crate::dynamics) torque: T,
 }
 
+impl<T: Scalar> ContactForces<T> {
+    /// Radial force on the element (N).
+    #[inline]
+    pub(in crate::dynamics) fn radial(&self) -> T {
+        self.inner.x - self.outer.x
+    }
+
+    /// Force on the inner and on the outer ring (N) of an element `at` this place.
+    pub(in crate::dynamics) fn on_rings(&self, at: &ElementMotion<T>) -> [Vector<T>; 2] {
+        [-(at.e_r * self.inner.x + at.e_t * self.inner.y), at.e_r * self.outer.x - at.e_t * self.outer.y]
+    }
+}
+
+impl<T: Scalar, const K: usize> ContactForces<Dual<T, K>> {
+    /// Derivatives by one direction.
+    pub(in crate::dynamics) fn by(&self, k: usize) -> ContactForces<T> {
+        ContactForces { inner: self.inner.map(|part| part.by[k]), outer: self.outer.map(|part| part.by[k]) }
+    }
+}
+
 impl<T: Scalar> ElementForces<T> {
     /// Force on the inner and on the outer ring (N).
     pub(in crate::dynamics) fn on_rings(&self) -> [Vector<T>; 2] {
-        [self.at.on_shaft(self.inner), self.at.on_housing(self.outer)]
+        self.forces.on_rings(&self.at)
     }
 
     /// Torques on the bodies with the defects under its contacts. A force on a smooth raceway goes through the ring's
     /// centre.
     pub(in crate::dynamics) fn torques(&self) -> impl Iterator<Item = BodyTorque<T>> {
-        let across = self.inner.y * self.n[0] - self.inner.x * self.n[1];
-        let torques = [-across * self.distance, -self.outer.y * self.rho];
+        let ContactForces { inner, outer } = self.forces;
+        let across = inner.y * self.n[0] - inner.x * self.n[1];
+        let torques = [-across * self.distance, -outer.y * self.rho];
         self.frames
             .into_iter()
             .zip(torques)
@@ -100,38 +125,34 @@ impl<T: Scalar> ElementForces<T> {
 }
 
 impl<T: Scalar> ElementMotion<T> {
-    /// A force on the inner ring (N) of a force of the inner contact on the element.
-    #[inline]
-    pub(in crate::dynamics) fn on_shaft(&self, inner: Vector<T>) -> Vector<T> {
-        -(self.e_r * inner.x + self.e_t * inner.y)
-    }
-
     /// Where a contact of it is, in these cells, without oil films.
     pub(super) fn place(&self, cells: [u32; 2]) -> Place<'_, T> {
         let Self { element, path, angle, ref frames, curved, .. } = *self;
         Place { element, cells, u: path, angle, frames, films: None, curved }
     }
 
-    /// A force on the outer ring (N) of a force of the outer contact on the element.
-    #[inline]
-    pub(in crate::dynamics) fn on_housing(&self, outer: Vector<T>) -> Vector<T> {
-        self.e_r * outer.x - self.e_t * outer.y
+    /// Rings' offset (m) and rate of q (m/s) along and across e_r, of the element `rho` (m) from the outer ring's centre.
+    pub(super) fn seen_from_inner(&self, rho: T) -> ([T; 2], [T; 2]) {
+        let Self { e_r, e_t, offset, drift, .. } = self;
+        let q_rate = [drift.dot(e_r) + self.path_rate, drift.dot(e_t) + rho * self.omega];
+        ([offset.dot(e_r), offset.dot(e_t)], q_rate)
     }
 }
 
 impl Model {
-    /// The forces on an element, its contacts in these cells (see `Model::cells_of`).
+    /// The forces of these contacts on an element, in these cells (see `Model::cells_of`).
     pub(in crate::dynamics) fn element_forces<T: Scalar>(
         &self,
+        contacts: [&CompliantContact; 2],
         cells: [[u32; 2]; 2],
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> ElementForces<T> {
         let films = at.oil_films();
         let [inside, outside] = cells.map(|cells| Place { films: films.as_ref(), ..at.place(cells) });
-        let (rho, offset, q_rate) = self.seen_from_inner(at);
+        let rho = self.distance(at);
+        let (offset, q_rate) = at.seen_from_inner(rho);
         let place = InnerPlace { at: inside, rho, offset, q_rate };
-        let contacts = self.own_contacts(at.element);
         let (inner, gap) = self.inner_contact(contacts[0], &place, shortcuts);
         let place = OuterPlace { at: outside, path_rate: at.path_rate, omega: at.omega };
         let outer = self.outer_contact(contacts[1], &place, shortcuts);
@@ -139,8 +160,7 @@ impl Model {
         ElementForces {
             at: *at,
             rho,
-            inner: inner.force.into(),
-            outer: outer.force.into(),
+            forces: ContactForces { inner: inner.force.into(), outer: outer.force.into() },
             n: gap.n,
             distance: gap.distance,
             frames: [bearer(cells[0], inner.frame), bearer(cells[1], outer.frame)],
@@ -167,13 +187,20 @@ impl Model {
         rho * (around + (self.gravity.map(T::from).dot(&e_t) - inertia) * T::Plain::from(self.mass_of(j)))
     }
 
-    /// Distance of an element from the outer ring's centre (m), and rings' offset (m) and rate of q (m/s) along and
-    /// across e_r.
-    pub(super) fn seen_from_inner<T: Scalar>(&self, at: &ElementMotion<T>) -> (T, [T; 2], [T; 2]) {
-        let ElementMotion { e_r, e_t, offset, drift, .. } = at;
-        let rho = at.path + T::from(self.centre_radius(at.element));
-        let q_rate = [drift.dot(e_r) + at.path_rate, drift.dot(e_t) + rho * at.omega];
-        (rho, [offset.dot(e_r), offset.dot(e_t)], q_rate)
+    /// Distance ρ (m) of an element from the outer ring's centre.
+    pub(in crate::dynamics) fn distance<T: Scalar>(&self, at: &ElementMotion<T>) -> T {
+        at.path + T::from(self.centre_radius(at.element))
+    }
+
+    /// w' (m/s²) of an element under this `radial` force of its contacts (N) as the outer ring goes at `housing` (m/s).
+    pub(in crate::dynamics) fn radial_acceleration<T: Scalar>(
+        &self,
+        at: &ElementMotion<T>,
+        radial: T,
+        housing: Vector<T>,
+    ) -> T {
+        let turning = at.omega * (housing.dot(&at.e_t) + self.distance(at) * at.omega);
+        radial * T::Plain::from(self.per_mass_of(at.element)) + self.gravity.map(T::from).dot(&at.e_r) + turning
     }
 
     /// The inner contact, and the gap it is in.

@@ -3,7 +3,7 @@
 
 use super::shortcuts::Shortcuts;
 use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, OilFilms, PathMotion, Turn};
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::{Vector, turned};
 
 /// One element and what it meets.
@@ -34,44 +34,50 @@ pub(in crate::dynamics) struct ElementMotion<T: Scalar = f64> {
     pub(in crate::dynamics) curved: bool,
 }
 
-/// A small change of what one element meets.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct ElementVariation<T: Scalar = f64> {
-    /// Of the outer ring's position less that of the inner.
-    pub(in crate::dynamics) offset: Vector<T>,
-    /// Of the outer ring's velocity less that of the inner.
-    pub(in crate::dynamics) drift: Vector<T>,
-    pub(in crate::dynamics) path: T,
-    pub(in crate::dynamics) path_rate: T,
-    /// Of the element's angle and speed.
-    pub(in crate::dynamics) angle: T,
-    pub(in crate::dynamics) speed: T,
-    /// Of the speed that oil films follow.
-    pub(in crate::dynamics) film_speed: T,
-    /// Of angle and speed of the frames of defects, in the order of [`Frame`](crate::dynamics::parameters::Frame).
-    pub(in crate::dynamics) frames: [[T; 2]; 3],
-}
-
 impl<T: Scalar> ElementMotion<T> {
-    /// The numbers without their derivatives.
-    pub(in crate::dynamics) fn values(&self) -> ElementMotion {
-        let plain = |vector: Vector<T>| vector.map(T::value);
-        let frame = |turn: Turn<T>| Turn { angle: turn.angle.value(), speed: turn.speed.value() };
+    /// The same in numbers of another kind.
+    pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> ElementMotion<U> {
+        let vector = |vector: Vector<T>| vector.map(&number);
+        let frame = |turn: Turn<T>| Turn { angle: number(turn.angle), speed: number(turn.speed) };
         ElementMotion {
             element: self.element,
-            e_r: plain(self.e_r),
-            e_t: plain(self.e_t),
-            angle: self.angle.value(),
-            omega: self.omega.value(),
-            alpha: self.alpha.value(),
-            path: self.path.value(),
-            path_rate: self.path_rate.value(),
-            offset: plain(self.offset),
-            drift: plain(self.drift),
+            e_r: vector(self.e_r),
+            e_t: vector(self.e_t),
+            angle: number(self.angle),
+            omega: number(self.omega),
+            alpha: number(self.alpha),
+            path: number(self.path),
+            path_rate: number(self.path_rate),
+            offset: vector(self.offset),
+            drift: vector(self.drift),
             frames: Frames(self.frames.0.map(frame)),
             films: self.films,
-            film_speed: self.film_speed.value(),
+            film_speed: number(self.film_speed),
             curved: self.curved,
+        }
+    }
+
+    /// The same as its path changes, the first of `K` directions.
+    pub(in crate::dynamics) fn by_path<const K: usize>(&self) -> ElementMotion<Dual<T, K>> {
+        ElementMotion { path: Dual::variable(self.path, 0), ..self.mapped(Dual::constant) }
+    }
+
+    /// The same by its path, and by time as all else goes on while the path stands.
+    pub(in crate::dynamics) fn by_path_and_time(&self) -> ElementMotion<Dual<T, 2>> {
+        let going = |value: T, rate: T| Dual { value, by: [T::from(0.0), rate] };
+        let along = |vector: Vector<T>, rate: Vector<T>| vector.zip_map(&rate, going);
+        ElementMotion {
+            e_r: along(self.e_r, self.e_t * self.omega),
+            e_t: along(self.e_t, self.e_r * -self.omega),
+            angle: going(self.angle, self.omega),
+            omega: going(self.omega, self.alpha),
+            offset: along(self.offset, self.drift),
+            frames: Frames(
+                self.frames
+                    .0
+                    .map(|turn| Turn { angle: going(turn.angle, turn.speed), speed: Dual::constant(turn.speed) }),
+            ),
+            ..self.by_path()
         }
     }
 
@@ -97,41 +103,6 @@ impl<T: Scalar> ElementMotion<T> {
     #[inline]
     pub(in crate::dynamics) fn on_path(&self, path: T, path_rate: T) -> Self {
         Self { path, path_rate, ..*self }
-    }
-}
-
-impl<T: Scalar> Default for ElementVariation<T> {
-    fn default() -> Self {
-        let none = T::from(0.0);
-        Self {
-            offset: Vector::zeros(),
-            drift: Vector::zeros(),
-            path: none,
-            path_rate: none,
-            angle: none,
-            speed: none,
-            film_speed: none,
-            frames: [[none; 2]; 3],
-        }
-    }
-}
-
-impl<T: Scalar> ElementVariation<T> {
-    /// Of the path alone.
-    pub(in crate::dynamics) fn of_path() -> Self {
-        Self { path: T::from(1.0), ..Self::default() }
-    }
-
-    /// Of u' alone.
-    pub(in crate::dynamics) fn of_path_rate() -> Self {
-        Self { path_rate: T::from(1.0), ..Self::default() }
-    }
-
-    /// Of the rings' offset along one axis alone.
-    pub(in crate::dynamics) fn of_offset(axis: usize) -> Self {
-        let mut offset = Vector::zeros();
-        offset[axis] = T::from(1.0);
-        Self { offset, ..Self::default() }
     }
 }
 

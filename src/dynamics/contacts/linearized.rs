@@ -4,26 +4,23 @@
 //! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that moves, and the tangent stiffness.
 //!
 //! The forces are those of the [kernel](super::kernel) over dual numbers: of the inner contact by q, q̇, frame and
-//! film, of the outer by u, u′, angle, speed and film. What an element sees leads to these by a linear chain,
-//! ```text
-//! dq  = dx_o − dx_i + e_r du + ρ e_t dθ
-//! dq̇  = dv_o − dv_i + e_r du' + (u' e_t − ρ ω e_r) dθ + e_t (ω du + ρ dω)
-//! ```
-//! d standing for a small change. The element's numbers may be dual numbers themselves; the derivatives then have
-//! theirs.
+//! film, of the outer by u, u′, angle, speed and film. What an element meets leads to these by the same text of them
+//! over dual numbers of whoever asks, and the chain rule gives the forces' derivatives. The element's numbers may be
+//! dual numbers themselves; the derivatives then have theirs.
 //!
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two, and where a
 //! film's gap ceases to close. At rest all of it is elastic: G = ∂f/∂q is symmetric, and no damping enters.
 
-use super::element_forces::{InnerPlace, OnElement, OuterPlace, Place};
-use super::element_motion::{ElementMotion, ElementVariation};
+use super::element_forces::{ContactForces, InnerPlace, OnElement, OuterPlace, Place};
+use super::element_motion::ElementMotion;
 use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
-use crate::dynamics::parameters::{Frame, FramedKinematics, Frames, Model, PathMotion, SMOOTH, Turn};
+use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH, Turn};
 use crate::numerics::number::{Dual, Scalar};
-use crate::numerics::plane::{Matrix, Vector};
+use crate::numerics::plane::Vector;
 
-/// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle and speed of the frame, film speed.
+/// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle of the frame less that of the element,
+/// speed of the frame, film speed.
 const INNER: usize = 7;
 /// Of the outer contact's: u, u', angle and speed against the frame, film speed.
 const OUTER: usize = 5;
@@ -64,13 +61,6 @@ pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
     pub(in crate::dynamics) frame: Frame,
 }
 
-/// Change of one element's contact forces, in its directions as they were.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct ElementChange<T: Scalar = f64> {
-    pub(in crate::dynamics) inner: Vector<T>,
-    pub(in crate::dynamics) outer: Vector<T>,
-}
-
 impl<T: Scalar, const K: usize> FirstOrder<T, K> {
     /// Of what the kernel finds, some directions left out.
     fn of<const N: usize>(OnElement { force, approach, frame }: OnElement<Dual<T, N>>) -> Self {
@@ -81,35 +71,32 @@ impl<T: Scalar, const K: usize> FirstOrder<T, K> {
         Self { force: Vector::new(force[0].value, force[1].value), by, approach: approach.value, frame }
     }
 
-    fn change(&self, directions: [T; K]) -> Vector<T> {
-        self.by.iter().zip(directions).fold(Vector::zeros(), |sum, (by, direction)| sum + by * direction)
-    }
-}
-
-impl<T: Scalar> ElementChange<T> {
-    /// Change of the radial force of both contacts on the element (N).
-    #[inline]
-    pub(in crate::dynamics) fn radial(&self) -> T {
-        self.inner.x - self.outer.x
+    /// The force as what it follows from changes.
+    fn chained<const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
+        Vector::from_fn(|part, _| Dual { value: self.force[part], by: self.by.map(|by| by[part]) }.chained(of))
     }
 }
 
 impl<T: Scalar> Linearized<T> {
-    /// The forces' change.
+    /// The forces.
+    pub(in crate::dynamics) fn forces(&self) -> ContactForces<T> {
+        ContactForces { inner: self.inner.force, outer: self.outer.force }
+    }
+
+    /// The forces where what the element meets, `at` the same place, has derivatives.
     #[inline]
-    pub(in crate::dynamics) fn change(&self, by: &ElementVariation<T>) -> ElementChange<T> {
-        let ElementMotion { e_r, e_t, omega, path_rate, .. } = self.at;
-        let rho = self.rho;
-        let q = [by.offset.dot(&e_r) + by.path, by.offset.dot(&e_t) + rho * by.angle];
-        let q_rate = [
-            by.drift.dot(&e_r) + (by.path_rate - rho * omega * by.angle),
-            by.drift.dot(&e_t) + (path_rate * by.angle + omega * by.path + rho * by.speed),
-        ];
-        let [angle, speed] = by.frames[self.inner.frame as usize];
-        let inner = self.inner.change([q[0], q[1], q_rate[0], q_rate[1], angle, speed, by.film_speed]);
-        let [angle, speed] = by.frames[self.outer.frame as usize];
-        let outer = [by.path, by.path_rate, by.angle - angle, by.speed - speed, by.film_speed];
-        ElementChange { inner, outer: self.outer.change(outer) }
+    pub(in crate::dynamics) fn chained<const K: usize>(
+        &self,
+        at: &ElementMotion<Dual<T, K>>,
+    ) -> ContactForces<Dual<T, K>> {
+        let rho = at.path + (self.rho - self.at.path);
+        let (offset, q_rate) = at.seen_from_inner(rho);
+        let frame = at.frames.of(self.inner.frame);
+        let q = [rho + offset[0], offset[1]];
+        let inner = [q[0], q[1], q_rate[0], q_rate[1], frame.angle - at.angle, frame.speed, at.film_speed];
+        let frame = at.frames.of(self.outer.frame);
+        let outer = [at.path, at.path_rate, at.angle - frame.angle, at.omega - frame.speed, at.film_speed];
+        ContactForces { inner: self.inner.chained(&inner), outer: self.outer.chained(&outer) }
     }
 }
 
@@ -124,7 +111,7 @@ impl<T: Scalar> Linearized<T> {
     /// The numbers without their derivatives.
     pub(in crate::dynamics) fn values(&self) -> Linearized {
         Linearized {
-            at: self.at.values(),
+            at: self.at.mapped(T::value),
             rho: self.rho.value(),
             inner: self.inner.values(),
             outer: self.outer.values(),
@@ -134,47 +121,15 @@ impl<T: Scalar> Linearized<T> {
     }
 }
 
-impl Linearized {
-    /// G = ∂f/∂q and D = ∂f/∂q̇ of the inner contact's force, in x and y.
-    pub(in crate::dynamics) fn by_q(&self) -> [Matrix; 2] {
-        let directions = Matrix::from_columns(&[self.at.e_r, self.at.e_t]);
-        let by = &self.inner.by;
-        [0, 2].map(|k| directions * Matrix::from_columns(&[by[k], by[k + 1]]) * directions.transpose())
-    }
-}
-
 impl Model {
-    /// Element `j` at path `u` and absolute radial velocity `w`, its contacts in these cells (see `Model::cells_of`).
-    pub(in crate::dynamics) fn linearized(
-        &self,
-        j: usize,
-        cells: [[u32; 2]; 2],
-        [u, w]: [f64; 2],
-        now: &FramedKinematics,
-        shortcuts: &mut Shortcuts,
-    ) -> Linearized {
-        let at = self.element_motion(j, PathMotion::at_rest(u), now, shortcuts);
-        self.linearized_at(cells, &at.on_path(u, w - now.housing.velocity.dot(&at.e_r)), shortcuts)
-    }
-
-    /// The same at this motion.
-    pub(in crate::dynamics) fn linearized_at<T: Scalar>(
+    /// The contacts of an element at this motion, in these cells (see `Model::cells_of`).
+    pub(in crate::dynamics) fn linearized<T: Scalar>(
         &self,
         cells: [[u32; 2]; 2],
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> Linearized<T> {
-        self.linearized_with(self.own_contacts(at.element), cells, at, shortcuts)
-    }
-
-    /// As [`linearized_at`](Self::linearized_at), with these contacts instead of the raceways'.
-    pub(in crate::dynamics) fn linearized_with<T: Scalar>(
-        &self,
-        contacts: [&CompliantContact; 2],
-        cells: [[u32; 2]; 2],
-        at: &ElementMotion<T>,
-        shortcuts: &mut Shortcuts,
-    ) -> Linearized<T> {
+        let contacts = self.own_contacts(at.element);
         // Dry contacts on smooth raceways ask for the first directions only.
         let [inner, outer] = cells.map(|cells| cells == [SMOOTH; 2] && at.films.is_none());
         let (inner, n, distance) = if inner {
@@ -187,7 +142,7 @@ impl Model {
         } else {
             self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at, shortcuts)
         };
-        Linearized { at: *at, rho: at.path + T::from(self.centre_radius(at.element)), inner, outer, n, distance }
+        Linearized { at: *at, rho: self.distance(at), inner, outer, n, distance }
     }
 
     fn inner_to_first_order<T: Scalar, const K: usize>(
@@ -197,7 +152,8 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> (FirstOrder<T, INNER>, [T; 2], T) {
-        let (rho, offset, q_rate) = self.seen_from_inner(at);
+        let rho = self.distance(at);
+        let (offset, q_rate) = at.seen_from_inner(rho);
         let turn = |turn: Turn<T>| Turn { angle: seed(turn.angle, 4), speed: seed(turn.speed, 5) };
         let frames = Frames(at.frames.0.map(turn));
         let films = at.films.map(|films| films.following(seed(at.film_speed, 6)));

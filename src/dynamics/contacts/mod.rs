@@ -18,8 +18,8 @@ pub use shortcuts::Shortcuts;
 
 pub(in crate::dynamics) use contact_lanes::Sums;
 pub(in crate::dynamics) use directions::{dot, radial};
-pub(in crate::dynamics) use element_forces::{BodyTorque, ElementForces};
-pub(in crate::dynamics) use element_motion::{ElementMotion, ElementVariation};
+pub(in crate::dynamics) use element_forces::{BodyTorque, ContactForces, ElementForces};
+pub(in crate::dynamics) use element_motion::ElementMotion;
 pub(in crate::dynamics) use kernel::{InnerGap, Meeting, Near};
-pub(in crate::dynamics) use linearized::{ElementChange, FirstOrder, Linearized};
+pub(in crate::dynamics) use linearized::{FirstOrder, Linearized};
 pub(in crate::dynamics) use non_smooth_contacts::NonSmoothOuter;

@@ -9,14 +9,14 @@
 //! onset of a contact there are two.
 
 use super::change::{Changing, ForceChange, Going, Variation, changing};
-use crate::dynamics::contacts::{BodyTorque, ElementForces, ElementMotion, Shortcuts};
+use crate::dynamics::contacts::{BodyTorque, ContactForces, ElementForces, ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, FramedKinematics, Frames, Model, PathMotion, Turn};
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};
 use crate::numerics::plane::{Matrix, Vector};
 
 impl Model {
     /// What element `j`, at path and absolute radial velocity of the state, meets as all that changes.
-    fn changing_motion(
+    pub(in crate::dynamics) fn changing_motion(
         &self,
         j: usize,
         state: &[f64],
@@ -71,15 +71,17 @@ impl Model {
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
             let forces = self.changing_forces(j, cells, state, &now, by, shortcuts);
+            let housing = changing_vector(now.housing.velocity, by.housing.velocity);
+            let (at, ContactForces { inner, outer }) = (&forces.at, forces.forces);
             rings += on_rings(&forces);
-            (change.inner[j], change.outer[j]) = (magnitude(&forces.inner), magnitude(&forces.outer));
-            change.path_rate[j] = forces.at.path_rate.by[0];
-            change.radial_acceleration[j] = self.radial_acceleration(&forces, &now, by).by[0];
-            let around = forces.inner.y + forces.outer.y;
-            let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = forces.at;
+            (change.inner[j], change.outer[j]) = (magnitude(&inner), magnitude(&outer));
+            change.path_rate[j] = at.path_rate.by[0];
+            change.radial_acceleration[j] = self.radial_acceleration(at, forces.forces.radial(), housing).by[0];
+            let around = inner.y + outer.y;
+            let ElementMotion { e_t, omega, alpha, path, path_rate, .. } = *at;
             let torque = self.torque_on_cage(j, e_t, [omega, alpha], [path, path_rate], around, acceleration);
             change.cage_torque += torque.by[0];
-            change.torque_by_acceleration -= forces.at.e_t.map(|part| part.value * forces.rho.value * self.mass_of(j));
+            change.torque_by_acceleration -= e_t.map(|part| part.value * forces.rho.value * self.mass_of(j));
             for BodyTorque { frame, torque } in forces.torques() {
                 match frame {
                     Frame::Shaft => change.shaft_torque += torque.by[0],
@@ -88,27 +90,11 @@ impl Model {
                 }
             }
             if self.elements_in_balance() {
-                let housing = changing_vector(now.housing.velocity, by.housing.velocity);
-                let w = forces.at.path_rate + housing.dot(&forces.at.e_r);
-                (by.path[j], by.radial_velocity[j]) = (forces.at.path.by[0], w.by[0]);
+                let w = path_rate + housing.dot(&at.e_r);
+                (by.path[j], by.radial_velocity[j]) = (path.by[0], w.by[0]);
             }
         }
         (change.shaft, change.housing) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
-    }
-
-    /// w' of an element, as the right-hand side has it.
-    fn radial_acceleration(
-        &self,
-        forces: &ElementForces<Changing>,
-        now: &FramedKinematics,
-        by: &Variation,
-    ) -> Changing {
-        let ElementMotion { e_r, e_t, omega, .. } = forces.at;
-        let housing = changing_vector(now.housing.velocity, by.housing.velocity);
-        let gravity = changing_vector(self.gravity, Vector::zeros());
-        let per_mass = changing(self.per_mass_of(forces.at.element), 0.0);
-        let turning = omega * (housing.dot(&e_t) + forces.rho * omega);
-        (forces.inner.x - forces.outer.x) * per_mass + gravity.dot(&e_r) + turning
     }
 
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.
@@ -124,9 +110,9 @@ impl Model {
         let at = self.changing_motion(j, state, now, by, shortcuts);
         let cells = self.cells_of(cells, j);
         if self.elements_in_balance() {
-            self.in_balance(cells, state[j], &at, shortcuts).forces()
+            self.in_balance(cells, state[j], &at, shortcuts).element()
         } else {
-            self.element_forces(cells, &at, shortcuts)
+            self.element_forces(self.own_contacts(j), cells, &at, shortcuts)
         }
     }
 
@@ -157,7 +143,7 @@ impl Model {
         let mut jacobian = RingJacobian::<Changing>::zeros();
         for j in 0..self.element_count {
             let at = self.changing_motion(j, state, &now, by, shortcuts).standing();
-            self.add_balanced(&self.linearized_at(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
+            self.add_balanced(&self.linearized(self.cells_of(cells, j), &at, shortcuts), &mut jacobian);
         }
         Matrix::from_fn(|row, column| jacobian[(row, column)].by[0])
     }

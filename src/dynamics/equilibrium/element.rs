@@ -33,7 +33,7 @@ impl Model {
             cells => self.touching_path(j, cells, at.angle, &at.frames, shortcuts),
         };
         let mut element = |u: f64| {
-            let element = self.linearized_at(cells, &at.on_path(u, 0.0), shortcuts);
+            let element = self.linearized(cells, &at.on_path(u, 0.0), shortcuts);
             (self.radial_push(&element), element)
         };
         let (RadialForce { force: at_touch, .. }, touching) = element(touch);

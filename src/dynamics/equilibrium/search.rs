@@ -158,7 +158,7 @@ impl Model {
                 let Err(cause) = self.near(side, &at, &now.frames, shortcuts) else { continue };
                 // The search may have ended on the far side, where all is NaN.
                 let element = self.at_rest(j, cells, u - FURTHER, &now, shortcuts);
-                let residual = self.radial_balance(&element).force;
+                let residual = self.radial_force(&element).force;
                 if !(residual.abs() <= UNBALANCED * element.inner.force.norm()) {
                     let angle_deg = self.angle_from_defect(side, &at, &now.frames).to_degrees();
                     return Err(EquilibriumError::Contact { element: j + 1, angle_deg, residual, cause });
@@ -181,7 +181,7 @@ impl Model {
         for (j, path) in u.iter_mut().enumerate() {
             let cells = self.cells_of(given.cells, j);
             let element = self.at_rest(j, cells, *path, &now, shortcuts);
-            let RadialForce { force, slope } = self.radial_balance(&element);
+            let RadialForce { force, slope } = self.radial_force(&element);
             let is_steep = !self.elements_in_balance() && !(force.abs() <= self.no_force(&element));
             let nearer = is_steep.then(|| self.balanced_element(j, cells, *path, &now, shortcuts).nearer).flatten();
             *path = nearer.unwrap_or(*path);
@@ -204,19 +204,18 @@ impl Model {
             let ElementAtRest { path, element, nearer } = if self.elements_in_balance() {
                 let at = self.element_motion(j, PathMotion::at_rest(u[j]), &now, shortcuts);
                 let found = self.in_balance(in_cells, u[j], &at, shortcuts);
-                let [shaft, housing] = found.forces().on_rings();
+                let [shaft, housing] = found.element().on_rings();
                 force += stacked(shaft, housing);
                 ElementAtRest { path: found.path, element: found.elastic, nearer: None }
             } else {
                 let found = self.balanced_element(j, in_cells, u[j], &now, shortcuts);
-                let element = &found.element;
-                let (inner, outer) = (element.inner.force, element.outer.force);
-                force += stacked(element.at.on_shaft(inner), element.at.on_housing(outer));
+                let [shaft, housing] = found.element.forces().on_rings(&found.element.at);
+                force += stacked(shaft, housing);
                 found
             };
             u[j] = path;
             if nearer.is_none() {
-                rounding += self.radial_balance(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
+                rounding += self.radial_force(&element).slope.abs() * (path.abs() + play) * 4.0 * f64::EPSILON;
             }
             let (inner, outer) = (element.inner.force, element.outer.force);
             contact_sum += inner.norm();

@@ -7,10 +7,11 @@
 //! An element that nothing touches and nothing moves stays where it is. Rings without any stiffness against them have
 //! no equilibrium of their own; their derivative does not exist.
 
-use crate::dynamics::contacts::{ElementVariation, Linearized, Shortcuts};
-use crate::dynamics::derivatives::{Going, Variation};
+use crate::dynamics::contacts::{ElementMotion, Linearized, Shortcuts};
+use crate::dynamics::derivatives::Variation;
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
-use crate::dynamics::quasi_static::{RingJacobian, Rings};
+use crate::dynamics::quasi_static::{Balanced, RingJacobian, Rings};
+use crate::numerics::number::Dual;
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
@@ -50,32 +51,35 @@ impl Model {
             by.move_rings(&self.balancing_motion(&jacobian, force)?);
             return Some(());
         }
-        let given = ElementVariation {
-            offset: by.offset(),
-            drift: by.drift(),
-            film_speed: by.film_speed,
-            frames: by.frames,
-            ..ElementVariation::default()
-        };
         let (mut jacobian, mut force) = (RingJacobian::zeros(), loads);
-        // In an uneven cage each element goes round at its own speed.
-        let own = |j: usize, given: ElementVariation, by: &Variation| ElementVariation {
-            speed: Going::of(self.lead(j, now.cage_angle()), &now.cage, by).speed,
-            ..given
-        };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now, shortcuts);
             self.add_balanced(&element, &mut jacobian);
-            force += self.balanced(&element, &own(j, given, by)).rings;
+            force += self.answer(&element, state, &now, by, shortcuts).rings;
         }
         by.move_rings(&self.balancing_motion(&jacobian, force)?);
-        let whole = ElementVariation { offset: by.offset(), ..given };
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now, shortcuts);
-            by.path[j] = self.balanced(&element, &own(j, whole, by)).path;
+            by.path[j] = self.answer(&element, state, &now, by, shortcuts).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.at.e_r);
         }
         Some(())
+    }
+
+    /// What a change does to an element that keeps its balance and stands on its path.
+    fn answer(
+        &self,
+        element: &Linearized,
+        state: &[f64],
+        now: &FramedKinematics,
+        by: &Variation,
+        shortcuts: &mut Shortcuts,
+    ) -> Balanced<f64> {
+        let changing = self.changing_motion(element.at.element, state, now, by, shortcuts);
+        let at = changing.mapped(|number| Dual { value: number.value, by: [0.0, number.by[0]] });
+        let (path, path_rate) = (Dual::variable(element.at.path, 0), Dual::constant(0.0));
+        let [_, answer] = self.balanced(element, &ElementMotion { path, path_rate, ..at });
+        answer
     }
 
     /// An element at the start; of one whose balance lies between two paths, at the path at which more touches it.
@@ -89,7 +93,7 @@ impl Model {
     ) -> Linearized {
         let (cells, path) = (self.cells_of(cells, j), state[j]);
         let element = self.at_rest(j, cells, path, now, shortcuts);
-        if self.radial_balance(&element).force.abs() <= self.no_force(&element) {
+        if self.radial_force(&element).force.abs() <= self.no_force(&element) {
             return element;
         }
         let found = self.balanced_element(j, cells, path, now, shortcuts);

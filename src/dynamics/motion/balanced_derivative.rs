@@ -4,7 +4,7 @@
 //! Elements on smooth raceways are found side by side (`quasi_static::balance_lanes`), those with a
 //! contact near a defect, or on a raceway that yields, one by one (`quasi_static::element_balance`).
 
-use crate::dynamics::contacts::{BodyTorque, FirstOrder, Forces, Linearized, Record};
+use crate::dynamics::contacts::{BodyTorque, ContactForces, FirstOrder, Forces, Linearized, Record};
 use crate::dynamics::parameters::{FramedKinematics, Kinematics, Model, PathMotion, SMOOTH, Stage, moved};
 use crate::dynamics::quasi_static::{InBalance, SmoothElements};
 use crate::numerics::lanes::{Lanes, Wide, handed_on};
@@ -65,7 +65,7 @@ impl Model {
             {
                 forces.unsolved = Some(unsolved);
             }
-            let exerted = found.forces();
+            let exerted = found.element();
             for (sum, force) in rings.iter_mut().zip(exerted.on_rings()) {
                 *sum += force;
             }
@@ -89,15 +89,16 @@ impl Model {
             outer: FirstOrder { approach: outside, .. },
             ..
         } = found.elastic;
-        let (inner, outer, laws) = (found.inner.norm(), found.outer.norm(), self.own_contacts(j));
-        let direction = if inner > 0.0 { found.inner / inner } else { n.into() };
+        let ContactForces { inner: on_inner, outer: on_outer } = found.forces;
+        let (inner, outer, laws) = (on_inner.norm(), on_outer.norm(), self.own_contacts(j));
+        let direction = if inner > 0.0 { on_inner / inner } else { n.into() };
         for (list, value) in [
             (&mut record.inner, inner),
             (&mut record.normal_radial, direction.x),
             (&mut record.normal_tangential, direction.y),
             (&mut record.outer, outer),
-            (&mut record.outer_radial, found.outer.x),
-            (&mut record.outer_tangential, found.outer.y),
+            (&mut record.outer_radial, on_outer.x),
+            (&mut record.outer_tangential, on_outer.y),
             (&mut record.inner_approach, inside),
             (&mut record.outer_approach, outside),
             (&mut record.inner_pushing, laws[0].pushing(inside, 0.0)),

@@ -18,8 +18,12 @@ pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;
 pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Raceway, SMOOTH, SurfaceDefect};
-pub use spatial::{COORDINATES, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies, force_slot};
-pub use supports::{BODIES, Bodies, BodyMatrix, FEW_BODIES, SensorModes, SensorSupport, Support, Supports};
+pub use spatial::{
+    COORDINATES, FEW_SPATIAL_BODIES, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies, force_slot,
+};
+pub use supports::{
+    BODIES, Bodies, BodyMatrix, FEW_BODIES, PLANE_RINGS, SensorModes, SensorSupport, Support, Supports,
+};
 
 pub(crate) use kinematics::Stage;
 pub(crate) use supports::StepEnds;

@@ -26,6 +26,9 @@ pub const RINGS: usize = 2 * COORDINATES;
 /// Coordinates of the bodies beside the elements: those of the inner ring, of the outer ring, and each sensor's.
 pub const SPATIAL_BODIES: usize = RINGS + MOST_SENSORS;
 
+/// Coordinates of the bodies where there is one sensor at most.
+pub const FEW_SPATIAL_BODIES: usize = RINGS + 1;
+
 /// One number for each coordinate of the bodies.
 pub type SpatialBodies<T = f64> = [T; SPATIAL_BODIES];
 

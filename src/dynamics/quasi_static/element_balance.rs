@@ -23,13 +23,12 @@
 //! is made smaller where one would. The path is the elastic one.
 
 use super::path_search::PathSearch;
-use super::tangent::{RadialForce, Rings, stacked};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{
-    ElementChange, ElementForces, ElementMotion, ElementVariation, Linearized, Meeting, Shortcuts, UnsolvedContact,
+    ContactForces, ElementForces, ElementMotion, Linearized, Meeting, Shortcuts, UnsolvedContact,
 };
 use crate::dynamics::parameters::{FramedKinematics, Model, PathMotion, SMOOTH};
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 
 /// Change of a path below which Newton's next step is exact to rounding (m): what is left is 0.25 (this)²/δ, with the
@@ -50,16 +49,12 @@ const EVALUATIONS_AT_BALANCE: u64 = 2;
 pub(in crate::dynamics) struct InBalance<T: Scalar = f64> {
     /// Its contacts without damping.
     pub(in crate::dynamics) elastic: Linearized<T>,
-    /// Its contacts damped at the rates of the balance.
-    pub(super) damped: Linearized<T>,
     /// u (m)
     pub(in crate::dynamics) path: T,
     /// u' (m/s)
     pub(in crate::dynamics) path_rate: T,
-    /// Force of the inner contact on the element (N).
-    pub(in crate::dynamics) inner: Vector<T>,
-    /// Force of the outer contact on the element (N).
-    pub(in crate::dynamics) outer: Vector<T>,
+    /// The contacts' forces, damping included.
+    pub(in crate::dynamics) forces: ContactForces<T>,
     /// Whether the inner and the outer contact are near a defect.
     near: [bool; 2],
     /// Evaluations of the contacts that it took.
@@ -78,20 +73,21 @@ pub(in crate::dynamics) struct FoundPath {
 }
 
 impl<T: Scalar> InBalance<T> {
-    /// Its contacts' forces, damping included.
-    pub(in crate::dynamics) fn forces(&self) -> ElementForces<T> {
+    /// The element with its contacts' forces.
+    pub(in crate::dynamics) fn element(&self) -> ElementForces<T> {
         let Linearized { at, rho, n, distance, inner, outer } = self.elastic;
         let frames = [inner.frame, outer.frame];
         let frames = [0, 1].map(|side| self.near[side].then_some(frames[side]));
         let at = at.on_path(self.path, self.path_rate);
-        ElementForces { at, rho, inner: self.inner, outer: self.outer, n, distance, frames }
+        ElementForces { at, rho, forces: self.forces, n, distance, frames }
     }
 }
 
 impl InBalance {
     /// Whether it is one: a search that found none, or a contact without an answer, leaves NaN.
     pub(in crate::dynamics) fn is_found(&self) -> bool {
-        (self.inner.x + self.inner.y + self.outer.x + self.outer.y + self.path_rate).is_finite()
+        let ContactForces { inner, outer } = self.forces;
+        (inner.sum() + outer.sum() + self.path_rate).is_finite()
     }
 }
 
@@ -105,28 +101,29 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> InBalance<T> {
-        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.values(), shortcuts);
-        let mut still = |path: T| self.linearized_at(cells, &at.on_path(path, T::from(0.0)), shortcuts);
+        let FoundPath { path, slope, evaluations } = self.balanced_path(cells, guess, &at.mapped(T::value), shortcuts);
+        let mut still = |path: T| self.linearized(cells, &at.on_path(path, T::from(0.0)), shortcuts);
         let path = if slope == 0.0 {
             T::from(path)
         } else {
-            T::root_of(path, slope, |path| self.radial_balance(&still(path)).force)
+            T::root_of(path, slope, |path| self.radial_force(&still(path)).force)
         };
         let elastic = still(path);
-        let RadialForce { force, slope } = self.radial_balance(&elastic);
-        let path_rate = self.balance_rate(&elastic);
-        let contacts = self.own_dampers(at.element);
-        let damped = self.linearized_with(contacts, cells, &at.on_path(path, path_rate), shortcuts);
-        let ElementChange { inner, outer } = damping(&elastic, &damped);
+        let moving = elastic.at.by_path_and_time();
+        let without = elastic.chained(&moving);
+        // The balance goes on with time: R_u u' + R_t = 0.
+        let Dual { value: force, by: [slope, push] } = self.radial_balance(&moving, &without);
+        let path_rate = if slope.value() < 0.0 { -push / slope } else { T::from(0.0) };
+        let dampers = self.own_dampers(at.element);
+        let damped = self.element_forces(dampers, cells, &at.on_path(path, path_rate), shortcuts);
         let is_known = force.value().abs() <= self.no_force_at(&elastic.values(), slope.value());
         let known = T::from(if is_known { 1.0 } else { f64::NAN });
+        let ContactForces { inner, outer } = with_damping(&without, &damped.forces);
         InBalance {
             path,
             path_rate,
-            inner: (elastic.inner.force + inner) * known,
-            outer: (elastic.outer.force + outer) * known,
+            forces: ContactForces { inner: inner * known, outer: outer * known },
             elastic,
-            damped,
             near: cells.map(|cells| cells != [SMOOTH; 2]),
             evaluations: evaluations + EVALUATIONS_AT_BALANCE,
         }
@@ -144,7 +141,7 @@ impl Model {
         let mut u = if guess.is_finite() { guess } else { 0.0 };
         let mut slope = 0.0;
         for evaluations in 1..MOST_EVALUATIONS {
-            let element = self.linearized_at(cells, &at.on_path(u, 0.0).searched(), shortcuts);
+            let element = self.linearized(cells, &at.on_path(u, 0.0).searched(), shortcuts);
             let push = self.radial_push(&element);
             slope = push.slope;
             if push.force == 0.0 && slope == 0.0 {
@@ -162,40 +159,6 @@ impl Model {
             u = next;
         }
         FoundPath { path: u, slope, evaluations: MOST_EVALUATIONS }
-    }
-
-    /// u' (m/s) of an element that stays in balance as cage, rings and frames move on.
-    fn balance_rate<T: Scalar>(&self, elastic: &Linearized<T>) -> T {
-        let ElementMotion { element, e_t, omega, alpha, drift, frames, .. } = elastic.at;
-        let moved = elastic.change(&ElementVariation {
-            offset: drift,
-            angle: omega,
-            frames: frames.0.map(|turn| [turn.speed, T::from(0.0)]),
-            ..ElementVariation::default()
-        });
-        let gravity = self.gravity.map(T::from).dot(&e_t);
-        let body = omega * (gravity + alpha * T::Plain::from(2.0 * self.centre_radius(element)));
-        let push = moved.radial() + omega * elastic.inner.force.y + body * T::Plain::from(self.mass_of(element));
-        let slope = self.radial_balance(elastic).slope;
-        if slope.value() < 0.0 { -push / slope } else { T::from(0.0) }
-    }
-
-    /// Derivative of an element's forces on the rings by the outer ring's velocity less the inner's along one axis, as
-    /// long as its contacts push (N s/m).
-    pub(in crate::dynamics) fn damped_by_drift(&self, found: &InBalance, axis: usize) -> Rings {
-        let InBalance { elastic, damped, .. } = found;
-        let along = elastic.change(&ElementVariation::of_path());
-        let stiffness = -along.radial();
-        if stiffness <= 0.0 {
-            return Rings::zeros();
-        }
-        let mut drift = Vector::zeros();
-        drift[axis] = 1.0;
-        let pushed = elastic.change(&ElementVariation { offset: drift, ..ElementVariation::default() });
-        let path_rate = pushed.radial() / stiffness;
-        let d = damped.change(&ElementVariation { drift, path_rate, ..ElementVariation::default() });
-        let lag = d.radial() / stiffness;
-        stacked(elastic.at.on_shaft(d.inner + along.inner * lag), elastic.at.on_housing(d.outer + along.outer * lag))
     }
 
     /// The contact of element `j` that has no answer.
@@ -225,20 +188,21 @@ impl Model {
     }
 }
 
-/// What damping changes of the forces on an element, its balance kept.
-fn damping<T: Scalar>(elastic: &Linearized<T>, damped: &Linearized<T>) -> ElementChange<T> {
-    let along = elastic.change(&ElementVariation::of_path());
+/// The forces with what damping changes of those without it, its balance kept. Their first direction is the path's.
+fn with_damping<T: Scalar>(without: &ContactForces<Dual<T, 2>>, damped: &ContactForces<T>) -> ContactForces<T> {
+    let elastic =
+        ContactForces { inner: without.inner.map(|part| part.value), outer: without.outer.map(|part| part.value) };
+    let along = without.by(0);
     let stiffness = -along.radial();
-    let [inner, outer] = [damped.inner.force - elastic.inner.force, damped.outer.force - elastic.outer.force];
     if stiffness.value() <= 0.0 {
-        return ElementChange { inner: Vector::zeros(), outer: Vector::zeros() };
+        return elastic;
     }
+    let [inner, outer] = [damped.inner - elastic.inner, damped.outer - elastic.outer];
     let lag = (inner.x - outer.x) / stiffness;
     let (inner, outer) = (inner + along.inner * lag, outer + along.outer * lag);
     // No contact pulls.
-    let share =
-        share_that_pushes(&elastic.inner.force, &inner).at_most(share_that_pushes(&elastic.outer.force, &outer));
-    ElementChange { inner: inner * share, outer: outer * share }
+    let share = share_that_pushes(&elastic.inner, &inner).at_most(share_that_pushes(&elastic.outer, &outer));
+    ContactForces { inner: elastic.inner + inner * share, outer: elastic.outer + outer * share }
 }
 
 /// Largest share of a change that leaves a force pushing, 1 at most.

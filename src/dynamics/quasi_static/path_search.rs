@@ -58,10 +58,10 @@ impl PathSearch {
 }
 
 impl Model {
-    /// As [`Model::radial_balance`], where contacts need not have an answer: an inner contact too deep for its law
+    /// As [`Model::radial_force`], where contacts need not have an answer: an inner contact too deep for its law
     /// pushes outwards, whatever its force. One outside is taken for one that pushes inwards: NaN is not above 0.
     pub(in crate::dynamics) fn radial_push(&self, element: &Linearized) -> RadialForce {
-        let RadialForce { force, slope } = self.radial_balance(element);
+        let RadialForce { force, slope } = self.radial_force(element);
         let too_deep = element.inner.force.x.is_nan() && !element.outer.force.x.is_nan();
         RadialForce { force: if too_deep { f64::INFINITY } else { force }, slope }
     }
@@ -69,7 +69,7 @@ impl Model {
     /// Radial force (N) on an element that counts as none where its path resolves its forces.
     pub(in crate::dynamics) fn no_force(&self, element: &Linearized) -> f64 {
         let (j, omega) = (element.at.element, element.at.omega);
-        let [radius, _] = self.centrifugal_radius(j, element.rho);
+        let radius = self.centrifugal_radius(j, element.rho);
         let body = self.mass_of(j) * (self.gravity.norm() + radius * omega * omega);
         RESIDUAL * (body + element.inner.force.norm() + element.outer.force.x.abs())
     }

@@ -6,9 +6,9 @@
 //!
 //! An element that nothing touches does not answer.
 
-use crate::dynamics::contacts::{ElementMotion, ElementVariation, Linearized, Shortcuts};
+use crate::dynamics::contacts::{ContactForces, ElementMotion, Linearized, Shortcuts};
 use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
-use crate::numerics::number::Scalar;
+use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
 
@@ -18,6 +18,7 @@ pub type RingJacobian<T = f64> = nalgebra::Matrix4<T>;
 pub type Rings<T = f64> = nalgebra::Vector4<T>;
 
 /// Change of one element's path (m) and of the forces on the rings (N), its balance kept.
+#[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct Balanced<T: Scalar> {
     pub(in crate::dynamics) path: T,
     pub(in crate::dynamics) rings: Rings<T>,
@@ -33,52 +34,54 @@ pub(in crate::dynamics) struct RadialForce<T = f64> {
 }
 
 impl Model {
-    /// Radial force on an element, 0 in balance.
-    #[inline]
-    pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, element: &Linearized<T>) -> RadialForce<T> {
-        let (j, square) = (element.at.element, element.at.omega * element.at.omega);
-        let (mass, [radius, grows]) = (T::Plain::from(self.mass_of(j)), self.centrifugal_radius(j, element.rho));
-        let body = self.gravity.map(T::from).dot(&element.at.e_r) + radius * square;
-        let contacts = element.inner.force.x - element.outer.force.x;
-        let along = element.change(&ElementVariation::of_path()).radial();
-        RadialForce { force: contacts + body * mass, slope: along + square * grows * mass }
+    /// R (N) on an element that its contacts push so, 0 in balance.
+    pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, at: &ElementMotion<T>, forces: &ContactForces<T>) -> T {
+        let radius = self.centrifugal_radius(at.element, self.distance(at));
+        let body = self.gravity.map(T::from).dot(&at.e_r) + radius * (at.omega * at.omega);
+        forces.radial() + body * T::Plain::from(self.mass_of(at.element))
     }
 
-    /// Radius (m) at which element `j` at distance `rho` (m) feels its centrifugal force, and its derivative by the
-    /// path.
+    /// The same and how it changes with the path.
+    #[inline]
+    pub(in crate::dynamics) fn radial_force<T: Scalar>(&self, element: &Linearized<T>) -> RadialForce<T> {
+        let at = element.at.by_path::<1>();
+        let Dual { value: force, by: [slope] } = self.radial_balance(&at, &element.chained(&at));
+        RadialForce { force, slope }
+    }
+
+    /// Radius (m) at which element `j` at distance `rho` (m) feels its centrifugal force.
     ///
     /// In balance at every instant an element feels that on the smooth outer raceway, different by 1e-3 of itself, over
     /// a spall 100 µm deep by 6e-3. A force that grows outwards would leave it two balances in its clearance where it
     /// about cancels its weight.
     #[inline(always)]
-    pub(in crate::dynamics) fn centrifugal_radius<T: Scalar>(&self, j: usize, rho: T) -> [T; 2] {
-        if self.elements_in_balance() { [self.centre_radius(j), 0.0].map(T::from) } else { [rho, T::from(1.0)] }
+    pub(in crate::dynamics) fn centrifugal_radius<T: Scalar>(&self, j: usize, rho: T) -> T {
+        if self.elements_in_balance() { T::from(self.centre_radius(j)) } else { rho }
     }
 
-    /// What a change does to an element that keeps its balance, and through it to the rings.
-    pub(in crate::dynamics) fn balanced<T: Scalar>(
+    /// What each direction of `at`, the first of which is the path's own, does to an element that keeps its balance,
+    /// and through it to the rings.
+    pub(in crate::dynamics) fn balanced<T: Scalar, const K: usize>(
         &self,
         element: &Linearized<T>,
-        by: &ElementVariation<T>,
-    ) -> Balanced<T> {
-        let (j, omega) = (element.at.element, element.at.omega);
-        let mass = T::Plain::from(self.mass_of(j));
-        let along = element.change(&ElementVariation::of_path());
-        let direct = element.change(by);
-        let [radius, grows] = self.centrifugal_radius(j, element.rho);
-        let stiffness = along.radial() + omega * omega * grows * mass;
-        let push = direct.radial() + (radius + radius) * omega * by.speed * mass;
-        let path = if stiffness.value() == 0.0 { T::from(0.0) } else { -push / stiffness };
-        let (inner, outer) = (direct.inner + along.inner * path, direct.outer + along.outer * path);
-        Balanced { path, rings: stacked(element.at.on_shaft(inner), element.at.on_housing(outer)) }
+        at: &ElementMotion<Dual<T, K>>,
+    ) -> [Balanced<T>; K] {
+        let forces = element.chained(at);
+        let [shaft, housing] = forces.on_rings(at);
+        let (push, rings) = (self.radial_balance(at, &forces).by, stacked(shaft, housing));
+        std::array::from_fn(|k| {
+            let path = if push[0].value() == 0.0 { T::from(0.0) } else { -push[k] / push[0] };
+            Balanced { path, rings: rings.map(|force| force.by[k] + force.by[0] * path) }
+        })
     }
 
     /// Adds an element in balance to the Jacobian of the rings' forces.
     pub(in crate::dynamics) fn add_balanced<T: Scalar>(&self, element: &Linearized<T>, jacobian: &mut RingJacobian<T>) {
-        for axis in 0..2 {
-            let rings = self.balanced(element, &ElementVariation::of_offset(axis)).rings;
-            jacobian.column_mut(axis).zip_apply(&rings, |sum, force| *sum -= force);
-            jacobian.column_mut(2 + axis).zip_apply(&rings, |sum, force| *sum += force);
+        let mut at = element.at.by_path::<3>();
+        at.offset = Vector::from_fn(|axis, _| Dual::variable(element.at.offset[axis], 1 + axis));
+        for (axis, of) in self.balanced(element, &at)[1..].iter().enumerate() {
+            jacobian.column_mut(axis).zip_apply(&of.rings, |sum, force| *sum -= force);
+            jacobian.column_mut(2 + axis).zip_apply(&of.rings, |sum, force| *sum += force);
         }
     }
 
@@ -106,7 +109,7 @@ impl Model {
         let mut jacobian = RingJacobian::zeros();
         for (j, &u) in u.iter().enumerate().take(self.element_count) {
             let at = self.element_motion(j, PathMotion::at_rest(u), now, shortcuts);
-            let element = self.linearized_at(self.cells_of(cells, j), &ElementMotion { curved, ..at }, shortcuts);
+            let element = self.linearized(self.cells_of(cells, j), &ElementMotion { curved, ..at }, shortcuts);
             self.add_balanced(&element, &mut jacobian);
         }
         jacobian
@@ -121,7 +124,7 @@ impl Model {
         now: &FramedKinematics,
         shortcuts: &mut Shortcuts,
     ) -> Linearized {
-        self.linearized_at(cells, &self.element_motion(j, PathMotion::at_rest(u), now, shortcuts), shortcuts)
+        self.linearized(cells, &self.element_motion(j, PathMotion::at_rest(u), now, shortcuts), shortcuts)
     }
 
     /// The matrix of the free rings' balance, −J + supports + `shift`; rows and columns of the others are those of the

@@ -8,14 +8,14 @@ use crate::dynamics::motion::{Between, Known};
 use crate::dynamics::parameters::{CageState, Excitation, Model, Stage};
 use crate::numerics::lanes::{Kernel, Wide, dispatch};
 use crate::simulation::integration::methods::{
-    Arrow, ExplicitMethod, LAST, RightHandSide, StageBuffers, dormand_prince, largest_error, rodas,
+    ExplicitMethod, LAST, RightHandSide, StageBuffers, dormand_prince, largest_error, rodas,
 };
 
 /// Tries one step with the method that is chosen, and leaves what error control asks of it.
 pub(super) fn try_step(workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
     if progress.choice.implicit {
         workspace.linearize(problem, span.from, progress);
-        workspace.arrow.factor(&workspace.jacobian, 1.0 / (rodas::GAMMA * span.length));
+        workspace.jacobian.factor(1.0 / (rodas::GAMMA * span.length));
     }
     dispatch(Trial { workspace, problem, span, progress });
 }
@@ -87,9 +87,9 @@ fn explicit_step<S: Wide>(
 #[inline(always)]
 fn implicit<S: Wide>(simd: S, workspace: &mut Workspace, problem: Problem, span: Span, progress: &Progress) {
     let (Problem { model, excitation }, Span { from, length: h }) = (problem, span);
-    let Workspace { buffers, forces, jacobian, arrow, largest_error, weights, .. } = workspace;
+    let Workspace { buffers, forces, jacobian, largest_error, weights, .. } = workspace;
     let cages = excitation.cage_after(from, rodas::NODES.map(|node| node * h));
-    let mut system = System { model, excitation, cages, forces, jacobian, arrow };
+    let mut system = System { model, excitation, cages, forces, jacobian };
     rodas::try_step(simd, buffers, &progress.state, &jacobian.by_time, h, &mut system);
     *largest_error = rodas::largest_error(buffers, weights);
     let StageBuffers { end, last, .. } = buffers;
@@ -140,7 +140,6 @@ struct System<'a> {
     cages: [CageState; 8],
     forces: &'a mut Forces,
     jacobian: &'a Jacobian,
-    arrow: &'a Arrow,
 }
 
 impl rodas::System for System<'_> {
@@ -151,7 +150,7 @@ impl rodas::System for System<'_> {
     }
 
     fn solve(&self, b: &mut [f64]) {
-        self.arrow.solve(self.jacobian, b);
+        self.jacobian.solve(b);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::dynamics::derivatives::Jacobian;
 use crate::dynamics::parameters::{Excitation, Layout, Model, StepEnds};
 use crate::numerics::lanes::row::Row;
 use crate::scene::Motion;
-use crate::simulation::integration::methods::{Arrow, ExplicitMethod, StageBuffers};
+use crate::simulation::integration::methods::{ExplicitMethod, StageBuffers};
 
 /// Approach below which errors are no longer measured relative to it (m): a contact of about 0.2 N.
 const SMALLEST_APPROACH: f64 = 0.1e-6;
@@ -84,7 +84,6 @@ pub struct Workspace {
     pub(super) jacobian: Jacobian,
     /// The Jacobian belongs to the start of the step.
     pub(in crate::simulation) linearized: bool,
-    pub(super) arrow: Arrow,
     pub(in crate::simulation) forces: Forces,
     pub(super) dense: Row,
     /// State of the sensors' modes at that instant.
@@ -114,7 +113,6 @@ impl Workspace {
             pair: ExplicitMethod::default(),
             jacobian: Jacobian::new(model),
             linearized: false,
-            arrow: Arrow::new(model),
             forces: Forces::of(model),
             dense: Row::zeros(len),
             sensor_modes: Row::zeros(model.sensor_modes.state_len()),

@@ -9,8 +9,8 @@ use crate::dynamics::parameters::{
     Cells, Centred, Cubic, DefectiveElement, Defects, Frame, Quadratic, SMOOTH, Turning,
 };
 use crate::scene::{
-    CageIrregularity, Damping, DefectOn, ElementInertia, Film, Roller, RollerProfile, RollingElement, Scene, Sensor,
-    Waviness, WavyBody,
+    CageIrregularity, Damping, DefectOn, ElementInertia, Film, Motion, Roller, RollerProfile, RollingElement, Scene,
+    Sensor, Waviness, WavyBody,
 };
 
 /// Who has a defect, and for an element the raceway that it faces.
@@ -264,4 +264,34 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
         }
     }
     [compared, left_out, near_defect]
+}
+
+#[test]
+fn the_solution_satisfies_the_whole_system() {
+    for (case, (motions, damping)) in
+        MOTIONS.into_iter().flat_map(|m| DAMPINGS.into_iter().map(move |d| (m, d))).enumerate()
+    {
+        let (model, excitation) = lively(motions, damping, -1.58);
+        let (state, cells) = moving(&model, &excitation, case as u64);
+        let len = model.layout.len;
+        let mut jacobian = Jacobian::new(&model);
+        model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
+        let matrix = jacobian.matrix(len);
+        for shift in [1e2, 1e5, 1e9] {
+            jacobian.factor(shift);
+            let mut noise = noise(7);
+            let b: Vec<f64> = (0..len).map(|i| if model.layout.is_used(i) { noise() } else { 0.0 }).collect();
+            let mut x = b.clone();
+            jacobian.solve(&mut x);
+            for i in (0..len).filter(|&i| model.layout.is_used(i)) {
+                let (mut sum, mut size) = (shift * x[i], (shift * x[i]).abs() + b[i].abs());
+                for k in 0..len {
+                    sum -= matrix[i][k] * x[k];
+                    size += (matrix[i][k] * x[k]).abs();
+                }
+                // Rounding of the largest terms, and some growth in the elimination.
+                assert!((sum - b[i]).abs() < 1e-12 * size, "{motions:?} {damping:?} row {i}: {sum} for {}", b[i]);
+            }
+        }
+    }
 }

@@ -24,10 +24,12 @@ use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion, Ring, Scene};
 use std::sync::Arc;
 
-/// Coordinates of the bodies beside the elements: inner ring x, y, outer ring x, y, each sensor along its direction.
-pub const BODIES: usize = 4 + MOST_SENSORS;
+/// Coordinates of both rings in the plane: inner ring x, y, outer ring x, y.
+pub const PLANE_RINGS: usize = 4;
+/// Coordinates of the bodies beside the elements: those of the rings, each sensor along its direction.
+pub const BODIES: usize = PLANE_RINGS + MOST_SENSORS;
 /// Coordinates of the bodies where there is one sensor at most.
-pub const FEW_BODIES: usize = 5;
+pub const FEW_BODIES: usize = PLANE_RINGS + 1;
 
 /// One number for each coordinate of the bodies.
 pub type Bodies = nalgebra::SVector<f64, BODIES>;

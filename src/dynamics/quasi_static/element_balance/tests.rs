@@ -7,6 +7,7 @@ use crate::dynamics::derivatives::jacobian::tests::{Bearer, DAMPINGS, MOTIONS, l
 use crate::dynamics::parameters::{CageState, Cells, Excitation, PathMotion, Stage};
 use crate::dynamics::quasi_static::balance_lanes::SmoothElements;
 use crate::dynamics::quasi_static::element_balance::*;
+use crate::dynamics::quasi_static::{Rings, stacked};
 use crate::numerics::lanes::{Kernel, dispatch};
 use crate::scene::{Damping, ElementInertia, Motion, Roller, RollerProfile, RollingElement};
 use pulp::Scalar256b;
@@ -77,13 +78,13 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let found = model.in_balance(in_cells, 0.0, &at, &mut Shortcuts::default());
             let ElementMotion { e_r, omega, .. } = found.elastic.at;
             let body = model.mass_of(j) * (model.gravity.dot(&e_r) + model.centre_radius(j) * omega * omega);
-            let scale = found.inner.norm() + found.outer.norm() + body.abs();
-            let left = found.inner.x - found.outer.x + body;
+            let scale = found.forces.inner.norm() + found.forces.outer.norm() + body.abs();
+            let left = found.forces.inner.x - found.forces.outer.x + body;
             // The search ends a thousandth below what it is asked for; rounding of 30 µm on the contact's stiffness.
             assert!(left.abs() < 1e-11 * scale + 1e-11, "{left:e} N is left of element {j}'s {scale} N");
-            pressed += usize::from(found.inner.norm() > 1.0);
+            pressed += usize::from(found.forces.inner.norm() > 1.0);
             near_defect += usize::from(in_cells != [[SMOOTH; 2]; 2]);
-            let [shaft, housing] = found.forces().on_rings();
+            let [shaft, housing] = found.element().on_rings();
             rings += stacked(shaft, housing);
             // Both end their search where 1e-12 m is left of a step; side by side stiffnesses are those before it.
             let path = forces.contacts.paths(model, state)[j];
@@ -96,7 +97,8 @@ fn elements_found_side_by_side_are_those_found_alone_and_each_is_in_balance() {
             let limit = share * found.path_rate.abs() + 1e-11;
             assert!(rate.abs() < limit, "element {j}: {rate:e} of {:e}", found.path_rate);
             // Dampers follow u'.
-            for (together, alone) in [(contacts.inner[j], found.inner.norm()), (contacts.outer[j], found.outer.norm())]
+            for (together, alone) in
+                [(contacts.inner[j], found.forces.inner.norm()), (contacts.outer[j], found.forces.outer.norm())]
             {
                 assert!((together - alone).abs() < 1e-8 * scale, "element {j}: {together} N against {alone} N alone");
             }

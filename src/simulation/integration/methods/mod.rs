@@ -1,15 +1,12 @@
 //! The integration methods, one step of each.
 
-mod arrow;
 pub(in crate::simulation) mod dormand_prince;
 pub(in crate::simulation) mod explicit;
 mod explicit_methods;
 pub mod phase_fitted;
 pub(in crate::simulation) mod rodas;
-mod spatial_arrow;
 mod stage_buffers;
 
-pub use arrow::Arrow;
 pub use explicit::{LAST, RightHandSide, largest_error};
 pub use explicit_methods::ExplicitMethod;
 pub use stage_buffers::StageBuffers;
