@@ -87,12 +87,13 @@ pub(in crate::dynamics) struct BodyTorque<T = f64> {
 
 impl<T: Scalar> ContactForces<T> {
     /// Radial force on the element (N).
-    #[inline]
+    #[inline(always)]
     pub(in crate::dynamics) fn radial(&self) -> T {
         self.inner.x - self.outer.x
     }
 
     /// Force on the inner and on the outer ring (N) of an element `at` this place.
+    #[inline(always)]
     pub(in crate::dynamics) fn on_rings(&self, at: &ElementMotion<T>) -> [Vector<T>; 2] {
         [-(at.e_r * self.inner.x + at.e_t * self.inner.y), at.e_r * self.outer.x - at.e_t * self.outer.y]
     }
@@ -132,6 +133,7 @@ impl<T: Scalar> ElementMotion<T> {
     }
 
     /// Rings' offset (m) and rate of q (m/s) along and across e_r, of the element `rho` (m) from the outer ring's centre.
+    #[inline(always)]
     pub(super) fn seen_from_inner(&self, rho: T) -> ([T; 2], [T; 2]) {
         let Self { e_r, e_t, offset, drift, .. } = self;
         let q_rate = [drift.dot(e_r) + self.path_rate, drift.dot(e_t) + rho * self.omega];
@@ -188,11 +190,13 @@ impl Model {
     }
 
     /// Distance ρ (m) of an element from the outer ring's centre.
+    #[inline(always)]
     pub(in crate::dynamics) fn distance<T: Scalar>(&self, at: &ElementMotion<T>) -> T {
         at.path + T::from(self.centre_radius(at.element))
     }
 
     /// w' (m/s²) of an element under this `radial` force of its contacts (N) as the outer ring goes at `housing` (m/s).
+    #[inline(always)]
     pub(in crate::dynamics) fn radial_acceleration<T: Scalar>(
         &self,
         at: &ElementMotion<T>,

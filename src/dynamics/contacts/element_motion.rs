@@ -36,6 +36,7 @@ pub(in crate::dynamics) struct ElementMotion<T: Scalar = f64> {
 
 impl<T: Scalar> ElementMotion<T> {
     /// The same in numbers of another kind.
+    #[inline(always)]
     pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> ElementMotion<U> {
         let vector = |vector: Vector<T>| vector.map(&number);
         let frame = |turn: Turn<T>| Turn { angle: number(turn.angle), speed: number(turn.speed) };
@@ -58,11 +59,13 @@ impl<T: Scalar> ElementMotion<T> {
     }
 
     /// The same as its path changes, the first of `K` directions.
+    #[inline(always)]
     pub(in crate::dynamics) fn by_path<const K: usize>(&self) -> ElementMotion<Dual<T, K>> {
         ElementMotion { path: Dual::variable(self.path, 0), ..self.mapped(Dual::constant) }
     }
 
     /// The same by its path, and by time as all else goes on while the path stands.
+    #[inline(always)]
     pub(in crate::dynamics) fn by_path_and_time(&self) -> ElementMotion<Dual<T, 2>> {
         let going = |value: T, rate: T| Dual { value, by: [T::from(0.0), rate] };
         let along = |vector: Vector<T>, rate: Vector<T>| vector.zip_map(&rate, going);

@@ -55,6 +55,8 @@ pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
     /// Force (N).
     pub(in crate::dynamics) force: Vector<T>,
     by: [Vector<T>; K],
+    /// How many of these directions there are: dry contacts on smooth raceways follow from the first ones.
+    directions: usize,
     /// Equivalent approach (m).
     pub(in crate::dynamics) approach: T,
     /// The frame of the body that has the defect.
@@ -68,12 +70,21 @@ impl<T: Scalar, const K: usize> FirstOrder<T, K> {
         for (k, by) in by.iter_mut().enumerate().take(N) {
             *by = Vector::new(force[0].by[k], force[1].by[k]);
         }
-        Self { force: Vector::new(force[0].value, force[1].value), by, approach: approach.value, frame }
+        let force = Vector::new(force[0].value, force[1].value);
+        Self { force, by, directions: N, approach: approach.value, frame }
     }
 
     /// The force as what it follows from changes.
+    #[inline(always)]
     fn chained<const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
-        Vector::from_fn(|part, _| Dual { value: self.force[part], by: self.by.map(|by| by[part]) }.chained(of))
+        let mut found = self.force.map(Dual::constant);
+        for (by, of) in self.by.iter().zip(of).take(self.directions) {
+            for k in 0..M {
+                found.x.by[k] += by.x * of.by[k];
+                found.y.by[k] += by.y * of.by[k];
+            }
+        }
+        found
     }
 }
 
@@ -84,7 +95,7 @@ impl<T: Scalar> Linearized<T> {
     }
 
     /// The forces where what the element meets, `at` the same place, has derivatives.
-    #[inline]
+    #[inline(always)]
     pub(in crate::dynamics) fn chained<const K: usize>(
         &self,
         at: &ElementMotion<Dual<T, K>>,
@@ -103,7 +114,13 @@ impl<T: Scalar> Linearized<T> {
 impl<T: Scalar, const K: usize> FirstOrder<T, K> {
     fn values(&self) -> FirstOrder<f64, K> {
         let by = self.by.map(|by| by.map(T::value));
-        FirstOrder { force: self.force.map(T::value), by, approach: self.approach.value(), frame: self.frame }
+        FirstOrder {
+            force: self.force.map(T::value),
+            by,
+            directions: self.directions,
+            approach: self.approach.value(),
+            frame: self.frame,
+        }
     }
 }
 

@@ -79,7 +79,7 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
     }
 
     /// Puts element `j` in; its part of the bodies' accelerations and of the derivative by time is added.
-    #[inline]
+    #[inline(always)]
     pub(super) fn put<const K: usize>(
         &mut self,
         j: usize,

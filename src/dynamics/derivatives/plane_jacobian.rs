@@ -125,6 +125,7 @@ impl Model {
     }
 
     /// Element `j` at path `u` and absolute radial velocity `w` as all that changes.
+    #[inline(always)]
     fn moving_element(
         &self,
         j: usize,

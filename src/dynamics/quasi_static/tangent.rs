@@ -35,6 +35,7 @@ pub(in crate::dynamics) struct RadialForce<T = f64> {
 
 impl Model {
     /// R (N) on an element that its contacts push so, 0 in balance.
+    #[inline(always)]
     pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, at: &ElementMotion<T>, forces: &ContactForces<T>) -> T {
         let radius = self.centrifugal_radius(at.element, self.distance(at));
         let body = self.gravity.map(T::from).dot(&at.e_r) + radius * (at.omega * at.omega);
@@ -42,7 +43,7 @@ impl Model {
     }
 
     /// The same and how it changes with the path.
-    #[inline]
+    #[inline(always)]
     pub(in crate::dynamics) fn radial_force<T: Scalar>(&self, element: &Linearized<T>) -> RadialForce<T> {
         let at = element.at.by_path::<1>();
         let Dual { value: force, by: [slope] } = self.radial_balance(&at, &element.chained(&at));
@@ -61,6 +62,7 @@ impl Model {
 
     /// What each direction of `at`, the first of which is the path's own, does to an element that keeps its balance,
     /// and through it to the rings.
+    #[inline(always)]
     pub(in crate::dynamics) fn balanced<T: Scalar, const K: usize>(
         &self,
         element: &Linearized<T>,
