@@ -8,6 +8,7 @@ use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
+use std::ops::{Add, Mul};
 
 /// What a contact of an element follows from, on either raceway.
 #[derive(Debug, Clone, Copy)]
@@ -94,8 +95,13 @@ impl<T: Scalar> ContactForces<T> {
 
     /// Force on the inner and on the outer ring (N) of an element `at` this place.
     #[inline(always)]
-    pub(in crate::dynamics) fn on_rings(&self, at: &ElementMotion<T>) -> [Vector<T>; 2] {
-        [-(at.e_r * self.inner.x + at.e_t * self.inner.y), at.e_r * self.outer.x - at.e_t * self.outer.y]
+    pub(in crate::dynamics) fn on_rings<E: Scalar>(&self, at: &ElementMotion<T, E>) -> [Vector<T>; 2]
+    where
+        T: Mul<E, Output = T>,
+    {
+        let Self { inner, outer } = self;
+        let along = |e: &Vector<E>, force: T| e.map(|part| force * part);
+        [-(along(&at.e_r, inner.x) + along(&at.e_t, inner.y)), along(&at.e_r, outer.x) - along(&at.e_t, outer.y)]
     }
 }
 
@@ -125,7 +131,7 @@ impl<T: Scalar> ElementForces<T> {
     }
 }
 
-impl<T: Scalar> ElementMotion<T> {
+impl<T: Scalar + Mul<E, Output = T>, E: Scalar> ElementMotion<T, E> {
     /// Where a contact of it is, in these cells, without oil films.
     pub(super) fn place(&self, cells: [u32; 2]) -> Place<'_, T> {
         let Self { element, path, angle, ref frames, curved, .. } = *self;
@@ -136,9 +142,15 @@ impl<T: Scalar> ElementMotion<T> {
     #[inline(always)]
     pub(super) fn seen_from_inner(&self, rho: T) -> ([T; 2], [T; 2]) {
         let Self { e_r, e_t, offset, drift, .. } = self;
-        let q_rate = [drift.dot(e_r) + self.path_rate, drift.dot(e_t) + rho * self.omega];
-        ([offset.dot(e_r), offset.dot(e_t)], q_rate)
+        let q_rate = [along(drift, e_r) + self.path_rate, along(drift, e_t) + rho * self.omega];
+        ([along(offset, e_r), along(offset, e_t)], q_rate)
     }
+}
+
+/// Part of a vector along a direction.
+#[inline(always)]
+fn along<T: Scalar + Mul<E, Output = T>, E: Scalar>(vector: &Vector<T>, e: &Vector<E>) -> T {
+    vector.x * e.x + vector.y * e.y
 }
 
 impl Model {
@@ -191,20 +203,23 @@ impl Model {
 
     /// Distance ρ (m) of an element from the outer ring's centre.
     #[inline(always)]
-    pub(in crate::dynamics) fn distance<T: Scalar>(&self, at: &ElementMotion<T>) -> T {
+    pub(in crate::dynamics) fn distance<T: Scalar, E: Scalar>(&self, at: &ElementMotion<T, E>) -> T {
         at.path + T::from(self.centre_radius(at.element))
     }
 
     /// w' (m/s²) of an element under this `radial` force of its contacts (N) as the outer ring goes at `housing` (m/s).
     #[inline(always)]
-    pub(in crate::dynamics) fn radial_acceleration<T: Scalar>(
+    pub(in crate::dynamics) fn radial_acceleration<T: Scalar, E: Scalar>(
         &self,
-        at: &ElementMotion<T>,
+        at: &ElementMotion<T, E>,
         radial: T,
         housing: Vector<T>,
-    ) -> T {
-        let turning = at.omega * (housing.dot(&at.e_t) + self.distance(at) * at.omega);
-        radial * T::Plain::from(self.per_mass_of(at.element)) + self.gravity.map(T::from).dot(&at.e_r) + turning
+    ) -> T
+    where
+        T: Mul<E, Output = T> + Add<E, Output = T>,
+    {
+        let turning = at.omega * (along(&housing, &at.e_t) + self.distance(at) * at.omega);
+        radial * T::Plain::from(self.per_mass_of(at.element)) + self.gravity.map(E::from).dot(&at.e_r) + turning
     }
 
     /// The inner contact, and the gap it is in.

@@ -6,14 +6,15 @@ use crate::dynamics::parameters::{FilmsNow, FramedKinematics, Frames, Model, Oil
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::{Vector, turned};
 
-/// One element and what it meets.
+/// One element and what it meets. Its directions may be constants beside numbers with derivatives: most products are
+/// with them, and cost a third then.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct ElementMotion<T: Scalar = f64> {
+pub(in crate::dynamics) struct ElementMotion<T: Scalar = f64, E: Scalar = T> {
     /// The element, from 0.
     pub(in crate::dynamics) element: usize,
     /// Radial direction, and the one counter-clockwise of it.
-    pub(in crate::dynamics) e_r: Vector<T>,
-    pub(in crate::dynamics) e_t: Vector<T>,
+    pub(in crate::dynamics) e_r: Vector<E>,
+    pub(in crate::dynamics) e_t: Vector<E>,
     /// Angle (rad), speed (rad/s) and acceleration (rad/s²) about the outer ring's centre.
     pub(in crate::dynamics) angle: T,
     pub(in crate::dynamics) omega: T,
@@ -60,8 +61,9 @@ impl<T: Scalar> ElementMotion<T> {
 
     /// The same as its path changes, the first of `K` directions.
     #[inline(always)]
-    pub(in crate::dynamics) fn by_path<const K: usize>(&self) -> ElementMotion<Dual<T, K>> {
-        ElementMotion { path: Dual::variable(self.path, 0), ..self.mapped(Dual::constant) }
+    pub(in crate::dynamics) fn by_path<const K: usize>(&self) -> ElementMotion<Dual<T, K>, T> {
+        let path = Dual::variable(self.path, 0);
+        ElementMotion { path, ..self.mapped(Dual::constant).towards(self.e_r, self.e_t) }
     }
 
     /// The same by its path, and by time as all else goes on while the path stands.
@@ -80,7 +82,31 @@ impl<T: Scalar> ElementMotion<T> {
                     .0
                     .map(|turn| Turn { angle: going(turn.angle, turn.speed), speed: Dual::constant(turn.speed) }),
             ),
-            ..self.by_path()
+            path: Dual::variable(self.path, 0),
+            ..self.mapped(Dual::constant)
+        }
+    }
+
+    /// The same in these directions.
+    #[inline(always)]
+    pub(in crate::dynamics) fn towards<E: Scalar>(&self, e_r: Vector<E>, e_t: Vector<E>) -> ElementMotion<T, E> {
+        let Self { element, angle, omega, alpha, path, path_rate, offset, drift, .. } = *self;
+        let Self { frames, films, film_speed, curved, .. } = *self;
+        ElementMotion {
+            element,
+            e_r,
+            e_t,
+            angle,
+            omega,
+            alpha,
+            path,
+            path_rate,
+            offset,
+            drift,
+            frames,
+            films,
+            film_speed,
+            curved,
         }
     }
 

@@ -18,6 +18,7 @@ use crate::contact::law::CompliantContact;
 use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH, Turn};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
+use std::ops::Mul;
 
 /// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle of the frame less that of the element,
 /// speed of the frame, film speed.
@@ -96,10 +97,13 @@ impl<T: Scalar> Linearized<T> {
 
     /// The forces where what the element meets, `at` the same place, has derivatives.
     #[inline(always)]
-    pub(in crate::dynamics) fn chained<const K: usize>(
+    pub(in crate::dynamics) fn chained<const K: usize, E: Scalar>(
         &self,
-        at: &ElementMotion<Dual<T, K>>,
-    ) -> ContactForces<Dual<T, K>> {
+        at: &ElementMotion<Dual<T, K>, E>,
+    ) -> ContactForces<Dual<T, K>>
+    where
+        Dual<T, K>: Mul<E, Output = Dual<T, K>>,
+    {
         let rho = at.path + (self.rho - self.at.path);
         let (offset, q_rate) = at.seen_from_inner(rho);
         let frame = at.frames.of(self.inner.frame);

@@ -43,8 +43,8 @@ pub(super) struct Block<const N: usize, const R: usize> {
     pub(super) rings_by_rate: SMatrix<f64, R, N>,
 }
 
-/// What an element does, with derivatives by its places, by their rates, by the rings' coordinates, by their
-/// velocities, and by time.
+/// What an element does, with derivatives by its places, by their rates, by the rings' coordinates and by their
+/// velocities; and its derivative by time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementToFirstOrder<const N: usize, const R: usize, const K: usize> {
     /// p'
@@ -53,6 +53,8 @@ pub(super) struct ElementToFirstOrder<const N: usize, const R: usize, const K: u
     pub(super) accelerations: [Dual<f64, K>; N],
     /// Forces on the rings.
     pub(super) on_rings: [Dual<f64, K>; R],
+    /// Of p', r' and the forces, by time at constant state.
+    pub(super) by_time: ([f64; N], [f64; N], [f64; R]),
 }
 
 impl<const N: usize, const R: usize> Block<N, R> {
@@ -100,7 +102,7 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
                 block.by_position[(n, i)] = acceleration[positions + i];
                 block.by_velocity[(n, i)] = acceleration[velocities + i];
             }
-            (by_time[self.starts[0][n] + j], by_time[self.starts[1][n] + j]) = (rate[K - 1], acceleration[K - 1]);
+            (by_time[self.starts[0][n] + j], by_time[self.starts[1][n] + j]) = (of.by_time.0[n], of.by_time.1[n]);
         }
         for i in 0..R {
             let (inverse, force) = (inverse_inertia[i], &of.on_rings[i].by);
@@ -113,7 +115,7 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
                 self.by_velocity[(i, k)] += inverse * force[velocities + k];
             }
             if let Some(BodyIndices { velocity, .. }) = self.bodies[i] {
-                by_time[velocity] += inverse * force[K - 1];
+                by_time[velocity] += inverse * of.by_time.2[i];
             }
         }
     }

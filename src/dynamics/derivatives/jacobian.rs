@@ -5,6 +5,7 @@
 //! are two.
 
 use super::arrow::ArrowJacobian;
+use super::change::Variation;
 use super::elimination::Elimination;
 use super::fastest::{BodyIndices, Fastest};
 use crate::dynamics::contacts::Shortcuts;
@@ -20,6 +21,8 @@ pub struct Jacobian {
     /// Derivative of the right-hand side by time at constant state.
     pub by_time: Row,
     shape: Shape,
+    /// What time changes, in the plane.
+    time: Variation,
 }
 
 /// Places of an element, coordinates of the rings, and of all bodies.
@@ -75,15 +78,7 @@ impl Jacobian {
             Some([v, w_z]) if many => Shape::SpaceWithSensors(Solvable::new(count, bodies(model), [[0, v], [w, w_z]])),
             Some([v, w_z]) => Shape::Space(Solvable::new(count, bodies(model), [[0, v], [w, w_z]])),
         };
-        Self { by_time: Row::zeros(layout.len), shape }
-    }
-
-    /// One element alone that is damped with `rate` (1/s).
-    #[cfg(test)]
-    pub fn with_fastest(rate: f64) -> Self {
-        let mut alone = Solvable::new(1, [None; FEW_BODIES], [[0], [1]]);
-        alone.jacobian.elements[0].by_rate[(0, 0)] = -rate;
-        Self { by_time: Row::zeros(0), shape: Shape::Plane(alone) }
+        Self { by_time: Row::zeros(layout.len), shape, time: Variation::new(model.element_count) }
     }
 
     /// The fastest of the elements and bodies, each taken alone while all else stands still: an element along and
@@ -120,16 +115,16 @@ impl Model {
         tau: f64,
         cells: &Cells,
         state: &[f64],
-        Jacobian { by_time, shape }: &mut Jacobian,
+        Jacobian { by_time, shape, time }: &mut Jacobian,
         shortcuts: &mut Shortcuts,
     ) {
         let when = (excitation, tau);
         match (shape, &self.space) {
             (Shape::Plane(of), _) => {
-                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time), shortcuts)
+                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time, time), shortcuts)
             }
             (Shape::PlaneWithSensors(of), _) => {
-                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time), shortcuts)
+                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time, time), shortcuts)
             }
             (Shape::Space(of), Some(space)) => {
                 self.linearize_in_space(space, when, cells, state, (&mut of.jacobian, by_time), shortcuts)

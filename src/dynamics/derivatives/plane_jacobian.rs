@@ -1,32 +1,23 @@
 //! The Jacobian in the plane: an element's state (u, w), by the rings' four coordinates, their velocities and time.
 
 use super::arrow::{ArrowJacobian, ElementToFirstOrder};
-use super::change::Changing;
+use super::change::{Changing, Variation};
 use super::fastest::BodyIndices;
-use crate::dynamics::contacts::{ElementMotion, Shortcuts};
+use super::variation::changing_vector;
+use crate::dynamics::contacts::{ElementMotion, Linearized, Shortcuts};
 use crate::dynamics::parameters::{
-    Bodies, Cells, Excitation, FramedKinematics, Frames, Kinematics, Model, PLANE_RINGS, PathMotion, RingState, Turn,
-    prescribed_rate,
+    Bodies, Cells, Excitation, FramedKinematics, Kinematics, Model, PLANE_RINGS, PathMotion, RingState, prescribed_rate,
 };
 use crate::dynamics::quasi_static::{RingJacobian, stacked};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion};
+use std::ops::{Add, Mul};
 
-/// Derivatives: by u and w, by the rings' positions, by their velocities, by time.
-type ByState = Dual<f64, { 2 + 2 * PLANE_RINGS + 1 }>;
-const TIME: usize = 2 + 2 * PLANE_RINGS;
-
-/// What all elements share while the Jacobian is put together.
-struct Shared {
-    now: FramedKinematics,
-    /// Positions and velocities of the rings, the inner first.
-    positions: [Vector<ByState>; 2],
-    velocities: [Vector<ByState>; 2],
-    frames: Frames<ByState>,
-    /// Rate of the speed that oil films follow (rad/s²).
-    film_rate: f64,
-}
+/// Derivatives: by u and w, by the rings' positions, by their velocities.
+type ByState = Dual<f64, { 2 + 2 * PLANE_RINGS }>;
+/// u', w' and the forces on the rings.
+type Rates<const K: usize> = ([Dual<f64, K>; 1], [Dual<f64, K>; 1], [Dual<f64, K>; PLANE_RINGS]);
 
 impl Model {
     /// As [`Model::linearize`] in the plane; `by_time` is the derivative by time.
@@ -35,36 +26,60 @@ impl Model {
         (excitation, tau): (&Excitation, f64),
         cells: &Cells,
         state: &[f64],
-        (jacobian, by_time): (&mut ArrowJacobian<1, PLANE_RINGS, B>, &mut [f64]),
+        (jacobian, by_time, time): (&mut ArrowJacobian<1, PLANE_RINGS, B>, &mut [f64], &mut Variation),
         shortcuts: &mut Shortcuts,
     ) {
         let host = |motion: Motion, prescribed| {
             if motion == Motion::Host { prescribed_rate(prescribed, tau) } else { RingState::default() }
         };
         let prescribed = [host(self.shaft.motion, &excitation.shaft), host(self.housing.motion, &excitation.housing)];
-        let shared = self.shared_in_plane(excitation, tau, state, &prescribed);
-        self.bodies_in_plane((excitation, tau), &shared.now, prescribed, (jacobian, by_time));
+        let now = self.kinematics(excitation, tau, state);
+        self.bodies_in_plane((excitation, tau), &now, prescribed, (jacobian, by_time));
         let masses = self.supports.inverse_masses();
         let inverse_masses = std::array::from_fn(|i| masses[i]);
         if self.elements_in_balance() {
-            let found = self.elements_in_balance_to_first_order(cells, state, &shared.now, shortcuts);
+            let found = self.elements_in_balance_to_first_order(cells, state, &now, shortcuts);
             for (whole, of_elements) in [&mut jacobian.by_position, &mut jacobian.by_velocity].into_iter().zip(found) {
                 let mut corner = whole.fixed_view_mut::<PLANE_RINGS, PLANE_RINGS>(0, 0);
                 corner += RingJacobian::from_diagonal(&inverse_masses.into()) * of_elements;
             }
             return;
         }
-        let w = self.layout.radial_velocity;
+        let variable = |of: Vector, first: usize| Vector::from_fn(|axis, _| ByState::variable(of[axis], first + axis));
+        let [(x_i, v_i), (x_o, v_o)] = [(&now.shaft, 2), (&now.housing, 4)]
+            .map(|(ring, k)| (variable(ring.position, k), variable(ring.velocity, PLANE_RINGS + k)));
+        time.go_on(&now, excitation, tau, prescribed);
+        let prescribed = changing_vector(now.housing.velocity, time.housing.velocity);
         for j in 0..self.element_count {
-            let at = self.moving_element(j, [state[j], state[w + j]], &shared, shortcuts);
-            let in_cells = self.cells_of(cells, j);
-            let forces = self.linearized(in_cells, &at.mapped(ByState::value), shortcuts).chained(&at);
-            let [shaft, housing] = forces.on_rings(&at);
-            let acceleration = self.radial_acceleration(&at, forces.radial(), shared.velocities[1]);
-            let on_rings = [shaft.x, shaft.y, housing.x, housing.y];
-            let found = ElementToFirstOrder { rates: [at.path_rate], accelerations: [acceleration], on_rings };
+            let going = self.changing_motion(j, state, &now, time, shortcuts);
+            let at = going.mapped(Changing::value);
+            let element = self.linearized(self.cells_of(cells, j), &at, shortcuts);
+            let w = ByState::variable(state[self.layout.radial_velocity + j], 1);
+            let path_rate = w - (v_o.x * at.e_r.x + v_o.y * at.e_r.y);
+            let moving = ElementMotion { path_rate, offset: x_o - x_i, drift: v_o - v_i, ..at.by_path() };
+            let (rates, accelerations, on_rings) = self.rates_to_first_order(&element, &moving, v_o);
+            let going = self.rates_to_first_order(&element, &going, prescribed);
+            let by_time_of = (going.0.map(|of| of.by[0]), going.1.map(|of| of.by[0]), going.2.map(|of| of.by[0]));
+            let found = ElementToFirstOrder { rates, accelerations, on_rings, by_time: by_time_of };
             jacobian.put(j, &found, &inverse_masses, by_time);
         }
+    }
+
+    /// What an element does that moves like this, as the outer ring goes at `housing` (m/s).
+    #[inline(always)]
+    fn rates_to_first_order<const K: usize, E: Scalar>(
+        &self,
+        element: &Linearized,
+        at: &ElementMotion<Dual<f64, K>, E>,
+        housing: Vector<Dual<f64, K>>,
+    ) -> Rates<K>
+    where
+        Dual<f64, K>: Mul<E, Output = Dual<f64, K>> + Add<E, Output = Dual<f64, K>>,
+    {
+        let forces = element.chained(at);
+        let [shaft, housing_force] = forces.on_rings(at);
+        let acceleration = self.radial_acceleration(at, forces.radial(), housing);
+        ([at.path_rate], [acceleration], [shaft.x, shaft.y, housing_force.x, housing_force.y])
     }
 
     /// Forces of elements in balance at every instant on the rings, by the rings' positions and velocities: their
@@ -99,62 +114,6 @@ impl Model {
         [by_position, by_velocity]
     }
 
-    /// Rings and frames with what they change by; `prescribed` are their rates where a host moves them.
-    fn shared_in_plane(&self, excitation: &Excitation, tau: f64, state: &[f64], prescribed: &[RingState; 2]) -> Shared {
-        let now = self.kinematics(excitation, tau, state);
-        let (rings, rates) = ([&now.shaft, &now.housing], excitation.frame_rates(tau));
-        let vector = |value: Vector, first: usize, rate: Vector| {
-            Vector::from_fn(|axis, _| {
-                let mut number = ByState::variable(value[axis], first + axis);
-                number.by[TIME] = rate[axis];
-                number
-            })
-        };
-        let frame = |i: usize| {
-            let (Turn { angle, speed }, [angle_rate, speed_rate]) = (now.frames.0[i], rates[i]);
-            Turn { angle: by_time(angle, angle_rate), speed: by_time(speed, speed_rate) }
-        };
-        Shared {
-            positions: [0, 1].map(|i: usize| vector(rings[i].position, 2 + 2 * i, prescribed[i].position)),
-            velocities: [0, 1]
-                .map(|i: usize| vector(rings[i].velocity, 2 + PLANE_RINGS + 2 * i, prescribed[i].velocity)),
-            frames: Frames([0, 1, 2].map(frame)),
-            film_rate: excitation.relative_speed.rate_at(tau),
-            now,
-        }
-    }
-
-    /// Element `j` at path `u` and absolute radial velocity `w` as all that changes.
-    #[inline(always)]
-    fn moving_element(
-        &self,
-        j: usize,
-        [u, w]: [f64; 2],
-        shared: &Shared,
-        shortcuts: &mut Shortcuts,
-    ) -> ElementMotion<ByState> {
-        let Shared { now, positions, velocities, frames, film_rate } = shared;
-        let at = self.element_motion(j, PathMotion::at_rest(u), now, shortcuts);
-        let turning = |vector: Vector, rate: Vector| vector.zip_map(&rate, by_time);
-        let e_r = turning(at.e_r, at.e_t * at.omega);
-        ElementMotion {
-            element: j,
-            e_r,
-            e_t: turning(at.e_t, at.e_r * -at.omega),
-            angle: by_time(at.angle, at.omega),
-            omega: by_time(at.omega, at.alpha),
-            alpha: ByState::constant(at.alpha),
-            path: ByState::variable(u, 0),
-            path_rate: ByState::variable(w, 1) - velocities[1].dot(&e_r),
-            offset: positions[1] - positions[0],
-            drift: velocities[1] - velocities[0],
-            frames: *frames,
-            films: at.films,
-            film_speed: by_time(at.film_speed, *film_rate),
-            curved: at.curved,
-        }
-    }
-
     /// What does not come from contacts: supports, sensors, loads.
     fn bodies_in_plane<const B: usize>(
         &self,
@@ -179,11 +138,4 @@ impl Model {
             }
         }
     }
-}
-
-/// A number that changes by time alone.
-fn by_time(value: f64, rate: f64) -> ByState {
-    let mut found = ByState::constant(value);
-    found.by[TIME] = rate;
-    found
 }

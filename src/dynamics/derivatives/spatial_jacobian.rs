@@ -62,8 +62,12 @@ impl Model {
             let gravity: Spatial<Changing> = [self.gravity.x, self.gravity.y, space.gravity].map(Changing::constant);
             let accelerations = ball.accelerations([f_r, f_z], self.per_mass_of(j), gravity);
             let [shaft, housing] = [ball.on_ring(&inner), ball.on_ring(&outer)];
-            let on_rings = std::array::from_fn(|i| if i < COORDINATES { shaft[i] } else { housing[i - COORDINATES] });
-            let found = ElementToFirstOrder { rates: ball.rates, accelerations, on_rings };
+            let on_rings: [Changing; RINGS] =
+                std::array::from_fn(|i| if i < COORDINATES { shaft[i] } else { housing[i - COORDINATES] });
+            let time = |of: &Changing| of.by[TIME];
+            let going =
+                (ball.rates.each_ref().map(time), accelerations.each_ref().map(time), on_rings.each_ref().map(time));
+            let found = ElementToFirstOrder { rates: ball.rates, accelerations, on_rings, by_time: going };
             jacobian.put(j, &found, &inverse_inertia, by_time);
         }
     }

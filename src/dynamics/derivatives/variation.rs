@@ -149,7 +149,7 @@ impl Model {
     }
 }
 
-fn changing_vector(value: Vector, by: Vector) -> Vector<Changing> {
+pub(super) fn changing_vector(value: Vector, by: Vector) -> Vector<Changing> {
     value.zip_map(&by, changing)
 }
 

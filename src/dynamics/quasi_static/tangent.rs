@@ -11,6 +11,7 @@ use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
+use std::ops::{Add, Mul};
 
 /// ∂(force on inner ring, force on outer ring)/∂(position of inner ring, position of outer ring) (N/m).
 pub type RingJacobian<T = f64> = nalgebra::Matrix4<T>;
@@ -36,9 +37,13 @@ pub(in crate::dynamics) struct RadialForce<T = f64> {
 impl Model {
     /// R (N) on an element that its contacts push so, 0 in balance.
     #[inline(always)]
-    pub(in crate::dynamics) fn radial_balance<T: Scalar>(&self, at: &ElementMotion<T>, forces: &ContactForces<T>) -> T {
+    pub(in crate::dynamics) fn radial_balance<T: Scalar + Add<E, Output = T>, E: Scalar>(
+        &self,
+        at: &ElementMotion<T, E>,
+        forces: &ContactForces<T>,
+    ) -> T {
         let radius = self.centrifugal_radius(at.element, self.distance(at));
-        let body = self.gravity.map(T::from).dot(&at.e_r) + radius * (at.omega * at.omega);
+        let body = radius * (at.omega * at.omega) + self.gravity.map(E::from).dot(&at.e_r);
         forces.radial() + body * T::Plain::from(self.mass_of(at.element))
     }
 
@@ -63,11 +68,14 @@ impl Model {
     /// What each direction of `at`, the first of which is the path's own, does to an element that keeps its balance,
     /// and through it to the rings.
     #[inline(always)]
-    pub(in crate::dynamics) fn balanced<T: Scalar, const K: usize>(
+    pub(in crate::dynamics) fn balanced<T: Scalar, E: Scalar, const K: usize>(
         &self,
         element: &Linearized<T>,
-        at: &ElementMotion<Dual<T, K>>,
-    ) -> [Balanced<T>; K] {
+        at: &ElementMotion<Dual<T, K>, E>,
+    ) -> [Balanced<T>; K]
+    where
+        Dual<T, K>: Mul<E, Output = Dual<T, K>> + Add<E, Output = Dual<T, K>>,
+    {
         let forces = element.chained(at);
         let [shaft, housing] = forces.on_rings(at);
         let (push, rings) = (self.radial_balance(at, &forces).by, stacked(shaft, housing));

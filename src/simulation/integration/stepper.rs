@@ -166,7 +166,7 @@ impl Stepper<'_> {
         }
         if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
             workspace.linearize(*problem, 0.0, progress);
-            progress.choice.check_first(&workspace.jacobian, control.method, control.tolerance);
+            progress.choice.check_first(workspace.jacobian.fastest(), control.method, control.tolerance);
         }
         workspace.pair = control.method.pair(control.tolerance, progress.choice.damped);
         Ok(())
@@ -361,10 +361,10 @@ impl Stepper<'_> {
             if *method == Method::Rodas {
                 return;
             }
-            progress.choice.implicit_step(span.length, taken.tried, &workspace.jacobian, *method, *tolerance);
+            progress.choice.implicit_step(span.length, taken.tried, workspace.jacobian.fastest(), *method, *tolerance);
         } else if progress.choice.explicit_step(span.length, taken.tried, taken.short) {
             workspace.linearize(*problem, span.end(), progress);
-            progress.choice.check_explicit(&workspace.jacobian, *method, *tolerance);
+            progress.choice.check_explicit(workspace.jacobian.fastest(), *method, *tolerance);
         }
         workspace.pair = method.pair(*tolerance, progress.choice.damped);
     }

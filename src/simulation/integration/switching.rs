@@ -13,7 +13,7 @@
 //! Explicit steps stay within h|λ| = r of the last check. Error control alone lets them swing across it, and what grows
 //! there before it is noticed is noise as large as the tolerance: in a healthy bearing several times all other errors.
 
-use crate::dynamics::derivatives::{Fastest, Jacobian};
+use crate::dynamics::derivatives::Fastest;
 use crate::simulation::integration::methods::{ExplicitMethod, dormand_prince, phase_fitted, rodas};
 use crate::simulation::step_error::SMALLEST_STEP;
 
@@ -121,15 +121,15 @@ impl Choice {
 
     /// Checks before the first step: a start at rest excites nothing, and error control alone would let steps grow far
     /// beyond what is stable before it notices.
-    pub fn check_first(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
-        self.damped = is_damped(jacobian);
-        self.stable_step = stable_step(jacobian, method.pair(tolerance, self.damped));
+    pub fn check_first(&mut self, fastest: Fastest, method: Method, tolerance: f64) {
+        self.damped = is_damped(fastest);
+        self.stable_step = stable_step(fastest, method.pair(tolerance, self.damped));
     }
 
     /// Decides after a row of explicit steps, between what there is to choose from.
-    pub fn check_explicit(&mut self, jacobian: &Jacobian, method: Method, tolerance: f64) {
+    pub fn check_explicit(&mut self, fastest: Fastest, method: Method, tolerance: f64) {
         let mean = self.gained / f64::from(self.tried);
-        let stiff = mean * rate_of_steps(jacobian, method.pair(tolerance, self.damped)) > NEAR_LIMIT;
+        let stiff = mean * rate_of_steps(fastest, method.pair(tolerance, self.damped)) > NEAR_LIMIT;
         // Where most steps land on something, longer ones are of no use.
         let useful = f64::from(self.limited) > (1.0 - 1.0 / COST) * f64::from(self.tried);
         let pays = stiff && useful && method == Method::Automatic;
@@ -137,8 +137,8 @@ impl Choice {
         if pays && self.wait > 0 {
             self.wait -= 1;
         }
-        let damped = is_damped(jacobian);
-        let stable_step = stable_step(jacobian, method.pair(tolerance, damped));
+        let damped = is_damped(fastest);
+        let stable_step = stable_step(fastest, method.pair(tolerance, damped));
         let (wait, patience) = (self.wait, self.patience);
         *self = Self { implicit: again, wait, patience, stable_step, damped, ..Self::default() };
     }
@@ -150,18 +150,18 @@ impl Choice {
 
     /// Notes a finished implicit step of length `h` (s) and how often it was tried; decides now and then, between what
     /// there is to choose from.
-    pub fn implicit_step(&mut self, h: f64, tried: u32, jacobian: &Jacobian, method: Method, tolerance: f64) {
+    pub fn implicit_step(&mut self, h: f64, tried: u32, fastest: Fastest, method: Method, tolerance: f64) {
         let trial = self.limited == 0;
-        let damped = is_damped(jacobian);
+        let damped = is_damped(fastest);
         let pair = method.pair(tolerance, damped);
         self.tried += tried;
-        self.gained += (h * rate_of_steps(jacobian, pair)).max(1.0);
+        self.gained += (h * rate_of_steps(fastest, pair)).max(1.0);
         if self.tried < if trial { TRIAL } else { IMPLICIT_CHECK_INTERVAL } {
             return;
         }
         let pays = self.gained > COST * f64::from(self.tried);
         // `limited` marks that the trial is over.
-        let stable_step = stable_step(jacobian, pair);
+        let stable_step = stable_step(fastest, pair);
         let next = Self {
             implicit: pays,
             limited: 1,
@@ -183,20 +183,18 @@ impl Choice {
 }
 
 /// Steps per second that the stability of an explicit method asks for.
-fn rate_of_steps(jacobian: &Jacobian, pair: ExplicitMethod) -> f64 {
-    let Fastest { eigenvalue, damping } = jacobian.fastest();
-    eigenvalue / reach(pair, damping)
+fn rate_of_steps(fastest: Fastest, pair: ExplicitMethod) -> f64 {
+    fastest.eigenvalue / reach(pair, fastest.damping)
 }
 
 /// Longest stable step of an explicit method (s); a number even where nothing moves by itself.
-fn stable_step(jacobian: &Jacobian, pair: ExplicitMethod) -> f64 {
-    (1.0 / rate_of_steps(jacobian, pair)).min(f64::MAX)
+fn stable_step(fastest: Fastest, pair: ExplicitMethod) -> f64 {
+    (1.0 / rate_of_steps(fastest, pair)).min(f64::MAX)
 }
 
 /// Whether the fastest motion is so strongly damped that the phase-fitted method does not pay: its step costs a tenth
 /// more.
-fn is_damped(jacobian: &Jacobian) -> bool {
-    let damping = jacobian.fastest().damping;
+fn is_damped(Fastest { damping, .. }: Fastest) -> bool {
     reach(ExplicitMethod::PhaseFitted, damping) < 1.1 * reach(ExplicitMethod::DormandPrince, damping)
 }
 
@@ -292,7 +290,7 @@ mod tests {
     #[test]
     fn where_nothing_moves_by_itself_the_stable_step_is_a_number() {
         let mut choice = Choice::default();
-        choice.check_first(&Jacobian::with_fastest(0.0), Method::Automatic, 1e-5);
+        choice.check_first(&Fastest { eigenvalue: 0.0, damping: 1.0 }, Method::Automatic, 1e-5);
         assert!(choice.stable_step.is_finite() && choice.is_possible());
         assert_eq!(choice.limited(1e-3), 1e-3);
     }
@@ -309,11 +307,11 @@ mod tests {
 
     #[test]
     fn a_trial_that_does_not_pay_ends_after_six_steps_and_the_next_waits_twice_as_long() {
-        let slow = Jacobian::with_fastest(1.0);
+        let slow = Fastest { eigenvalue: 1.0, damping: 1.0 };
         let mut choice = Choice { implicit: true, patience: 2, ..Choice::default() };
         for _ in 0..TRIAL {
             assert!(choice.implicit);
-            choice.implicit_step(1e-3, 1, &slow, Method::Automatic, 1e-9);
+            choice.implicit_step(1e-3, 1, slow, Method::Automatic, 1e-9);
         }
         assert!(!choice.implicit);
         assert_eq!((choice.wait, choice.patience), (4, 4));
@@ -321,35 +319,35 @@ mod tests {
 
     #[test]
     fn steps_at_the_stability_limit_start_a_trial_and_long_implicit_steps_keep_it() {
-        let fast = Jacobian::with_fastest(1e8);
+        let fast = Fastest { eigenvalue: 1e8, damping: 1.0 };
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, false) {}
-        choice.check_explicit(&fast, Method::Automatic, 1e-9);
+        choice.check_explicit(fast, Method::Automatic, 1e-9);
         assert!(choice.implicit);
         for _ in 0..100 {
-            choice.implicit_step(1e-6, 1, &fast, Method::Automatic, 1e-9);
+            choice.implicit_step(1e-6, 1, fast, Method::Automatic, 1e-9);
         }
         assert!(choice.implicit);
     }
 
     #[test]
     fn explicit_steps_stay_stable_and_implicit_ones_are_free() {
-        let fast = Jacobian::with_fastest(1e8);
+        let fast = Fastest { eigenvalue: 1e8, damping: 1.0 };
         let mut choice = Choice::default();
         assert_eq!(choice.limited(1.0), 1.0);
         while !choice.explicit_step(1e-9, 1, false) {}
-        choice.check_explicit(&fast, Method::Automatic, 1e-9);
-        let limit = 1.0 / rate_of_steps(&fast, ExplicitMethod::DormandPrince);
+        choice.check_explicit(fast, Method::Automatic, 1e-9);
+        let limit = 1.0 / rate_of_steps(fast, ExplicitMethod::DormandPrince);
         assert_eq!((choice.limited(1.0), choice.limited(0.5 * limit)), (limit, 0.5 * limit));
         assert_eq!(Choice { implicit: true, ..choice }.limited(1.0), 1.0);
     }
 
     #[test]
     fn steps_that_land_anyway_start_no_trial() {
-        let fast = Jacobian::with_fastest(1e8);
+        let fast = Fastest { eigenvalue: 1e8, damping: 1.0 };
         let mut choice = Choice::default();
         while !choice.explicit_step(3e-8, 1, true) {}
-        choice.check_explicit(&fast, Method::Automatic, 1e-9);
+        choice.check_explicit(fast, Method::Automatic, 1e-9);
         assert!(!choice.implicit);
     }
 }
