@@ -32,6 +32,7 @@ fn the_jacobian_is_the_quotient_of_differences() {
         let (state, cells, len) = (simulation.state_vector().to_vec(), simulation.cells().clone(), model.layout.len);
         let mut jacobian = Jacobian::new(model);
         model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
+        model.derivative_by_time(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());
         let matrix = jacobian.matrix(len);
         let mut forces = Forces::of(model);
         let mut rate = |tau: f64, state: &[f64]| {

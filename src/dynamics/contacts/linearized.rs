@@ -25,6 +25,9 @@ use std::ops::Mul;
 const INNER: usize = 7;
 /// Of the outer contact's: u, u', angle and speed against the frame, film speed.
 const OUTER: usize = 5;
+/// The first of these, from which dry contacts on smooth raceways follow.
+const SMOOTH_INNER: usize = 4;
+const SMOOTH_OUTER: usize = 2;
 
 /// One element's contacts to first order. Forces are in parts along e_r and e_t, of the outer contact inwards.
 #[derive(Debug, Clone, Copy)]
@@ -56,8 +59,8 @@ pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
     /// Force (N).
     pub(in crate::dynamics) force: Vector<T>,
     by: [Vector<T>; K],
-    /// How many of these directions there are: dry contacts on smooth raceways follow from the first ones.
-    directions: usize,
+    /// Whether it is dry and on a smooth raceway, and follows from the first directions only.
+    is_smooth: bool,
     /// Equivalent approach (m).
     pub(in crate::dynamics) approach: T,
     /// The frame of the body that has the defect.
@@ -72,20 +75,23 @@ impl<T: Scalar, const K: usize> FirstOrder<T, K> {
             *by = Vector::new(force[0].by[k], force[1].by[k]);
         }
         let force = Vector::new(force[0].value, force[1].value);
-        Self { force, by, directions: N, approach: approach.value, frame }
+        Self { force, by, is_smooth: N < K, approach: approach.value, frame }
     }
 
     /// The force as what it follows from changes.
     #[inline(always)]
-    fn chained<const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
-        let mut found = self.force.map(Dual::constant);
-        for (by, of) in self.by.iter().zip(of).take(self.directions) {
-            for k in 0..M {
-                found.x.by[k] += by.x * of.by[k];
-                found.y.by[k] += by.y * of.by[k];
+    fn chained<const SMOOTH_DIRECTIONS: usize, const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
+        let chained = |count: usize| {
+            let mut found = self.force.map(Dual::constant);
+            for i in 0..count {
+                for k in 0..M {
+                    found.x.by[k] += self.by[i].x * of[i].by[k];
+                    found.y.by[k] += self.by[i].y * of[i].by[k];
+                }
             }
-        }
-        found
+            found
+        };
+        if self.is_smooth { chained(SMOOTH_DIRECTIONS) } else { chained(K) }
     }
 }
 
@@ -111,7 +117,10 @@ impl<T: Scalar> Linearized<T> {
         let inner = [q[0], q[1], q_rate[0], q_rate[1], frame.angle - at.angle, frame.speed, at.film_speed];
         let frame = at.frames.of(self.outer.frame);
         let outer = [at.path, at.path_rate, at.angle - frame.angle, at.omega - frame.speed, at.film_speed];
-        ContactForces { inner: self.inner.chained(&inner), outer: self.outer.chained(&outer) }
+        ContactForces {
+            inner: self.inner.chained::<SMOOTH_INNER, K>(&inner),
+            outer: self.outer.chained::<SMOOTH_OUTER, K>(&outer),
+        }
     }
 }
 
@@ -121,7 +130,7 @@ impl<T: Scalar, const K: usize> FirstOrder<T, K> {
         FirstOrder {
             force: self.force.map(T::value),
             by,
-            directions: self.directions,
+            is_smooth: self.is_smooth,
             approach: self.approach.value(),
             frame: self.frame,
         }
@@ -154,12 +163,12 @@ impl Model {
         // Dry contacts on smooth raceways ask for the first directions only.
         let [inner, outer] = cells.map(|cells| cells == [SMOOTH; 2] && at.films.is_none());
         let (inner, n, distance) = if inner {
-            self.inner_to_first_order::<T, 4>(contacts[0], cells[0], at, shortcuts)
+            self.inner_to_first_order::<T, SMOOTH_INNER>(contacts[0], cells[0], at, shortcuts)
         } else {
             self.inner_to_first_order::<T, INNER>(contacts[0], cells[0], at, shortcuts)
         };
         let outer = if outer {
-            self.outer_to_first_order::<T, 2>(contacts[1], cells[1], at, shortcuts)
+            self.outer_to_first_order::<T, SMOOTH_OUTER>(contacts[1], cells[1], at, shortcuts)
         } else {
             self.outer_to_first_order::<T, OUTER>(contacts[1], cells[1], at, shortcuts)
         };

@@ -44,7 +44,7 @@ pub(super) struct Block<const N: usize, const R: usize> {
 }
 
 /// What an element does, with derivatives by its places, by their rates, by the rings' coordinates and by their
-/// velocities; and its derivative by time.
+/// velocities.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementToFirstOrder<const N: usize, const R: usize, const K: usize> {
     /// p'
@@ -53,8 +53,6 @@ pub(super) struct ElementToFirstOrder<const N: usize, const R: usize, const K: u
     pub(super) accelerations: [Dual<f64, K>; N],
     /// Forces on the rings.
     pub(super) on_rings: [Dual<f64, K>; R],
-    /// Of p', r' and the forces, by time at constant state.
-    pub(super) by_time: ([f64; N], [f64; N], [f64; R]),
 }
 
 impl<const N: usize, const R: usize> Block<N, R> {
@@ -80,14 +78,13 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
         Self { elements: vec![Block::none(); count], by_position: none, by_velocity: none, bodies, starts }
     }
 
-    /// Puts element `j` in; its part of the bodies' accelerations and of the derivative by time is added.
+    /// Puts element `j` in; its part of the bodies' accelerations is added.
     #[inline(always)]
     pub(super) fn put<const K: usize>(
         &mut self,
         j: usize,
         of: &ElementToFirstOrder<N, R, K>,
         inverse_inertia: &[f64; R],
-        by_time: &mut [f64],
     ) {
         let [positions, velocities] = [2 * N, 2 * N + R];
         let block = &mut self.elements[j];
@@ -102,7 +99,6 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
                 block.by_position[(n, i)] = acceleration[positions + i];
                 block.by_velocity[(n, i)] = acceleration[velocities + i];
             }
-            (by_time[self.starts[0][n] + j], by_time[self.starts[1][n] + j]) = (of.by_time.0[n], of.by_time.1[n]);
         }
         for i in 0..R {
             let (inverse, force) = (inverse_inertia[i], &of.on_rings[i].by);
@@ -113,9 +109,6 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
             for k in 0..R {
                 self.by_position[(i, k)] += inverse * force[positions + k];
                 self.by_velocity[(i, k)] += inverse * force[velocities + k];
-            }
-            if let Some(BodyIndices { velocity, .. }) = self.bodies[i] {
-                by_time[velocity] += inverse * of.by_time.2[i];
             }
         }
     }

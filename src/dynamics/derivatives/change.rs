@@ -1,6 +1,6 @@
 //! A small change of state and inputs, and what contact forces make of it.
 
-use crate::dynamics::parameters::{CageState, Excitation, FramedKinematics, Lead, RingInSpace, RingState};
+use crate::dynamics::parameters::{CageState, Lead, RingInSpace, RingState};
 use crate::dynamics::quasi_static::Rings;
 use crate::numerics::number::Dual;
 use crate::numerics::plane::Vector;
@@ -86,19 +86,6 @@ impl Variation {
     /// Of the outer ring's position less that of the inner (m).
     pub(in crate::dynamics) fn offset(&self) -> Vector {
         self.housing.position - self.shaft.position
-    }
-
-    /// Makes it that by time at `tau` where all that has a state stands still; rings go as they are `prescribed`.
-    pub(super) fn go_on(
-        &mut self,
-        now: &FramedKinematics,
-        excitation: &Excitation,
-        tau: f64,
-        prescribed: [RingState; 2],
-    ) {
-        (self.cage_angle, self.cage_speed) = (now.cage.speed, now.cage.acceleration);
-        (self.film_speed, self.frames) = (excitation.relative_speed.rate_at(tau), excitation.frame_rates(tau));
-        [self.shaft, self.housing] = prescribed;
     }
 
     /// Moves both rings further (m).

@@ -1,4 +1,4 @@
-//! Exact Jacobian of the right-hand side, damping included, and its derivative by time; and (s − J) x = b.
+//! Exact Jacobian of the right-hand side, damping included; and (s − J) x = b.
 //!
 //! All derivatives are those of the equations of motion over dual numbers: in the [plane](super::plane_jacobian), in
 //! [space](super::spatial_jacobian). They are those of the branch that the state is in; at the onset of a contact there
@@ -18,11 +18,11 @@ use crate::numerics::lanes::row::Row;
 /// The Jacobian of a model.
 #[derive(Debug, Clone)]
 pub struct Jacobian {
-    /// Derivative of the right-hand side by time at constant state.
+    /// Derivative of the right-hand side by time at constant state, once [it](Model::derivative_by_time) is asked for.
     pub by_time: Row,
     shape: Shape,
-    /// What time changes, in the plane.
-    time: Variation,
+    /// What time changes.
+    pub(super) time: Variation,
 }
 
 /// Places of an element, coordinates of the rings, and of all bodies.
@@ -78,7 +78,11 @@ impl Jacobian {
             Some([v, w_z]) if many => Shape::SpaceWithSensors(Solvable::new(count, bodies(model), [[0, v], [w, w_z]])),
             Some([v, w_z]) => Shape::Space(Solvable::new(count, bodies(model), [[0, v], [w, w_z]])),
         };
-        Self { by_time: Row::zeros(layout.len), shape, time: Variation::new(model.element_count) }
+        let time = match &model.space {
+            None => Variation::new(model.element_count),
+            Some(_) => Variation::in_space(model.element_count),
+        };
+        Self { by_time: Row::zeros(layout.len), shape, time }
     }
 
     /// The fastest of the elements and bodies, each taken alone while all else stands still: an element along and
@@ -115,22 +119,20 @@ impl Model {
         tau: f64,
         cells: &Cells,
         state: &[f64],
-        Jacobian { by_time, shape, time }: &mut Jacobian,
+        Jacobian { shape, .. }: &mut Jacobian,
         shortcuts: &mut Shortcuts,
     ) {
         let when = (excitation, tau);
         match (shape, &self.space) {
-            (Shape::Plane(of), _) => {
-                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time, time), shortcuts)
-            }
+            (Shape::Plane(of), _) => self.linearize_in_plane(when, cells, state, &mut of.jacobian, shortcuts),
             (Shape::PlaneWithSensors(of), _) => {
-                self.linearize_in_plane(when, cells, state, (&mut of.jacobian, by_time, time), shortcuts)
+                self.linearize_in_plane(when, cells, state, &mut of.jacobian, shortcuts)
             }
             (Shape::Space(of), Some(space)) => {
-                self.linearize_in_space(space, when, cells, state, (&mut of.jacobian, by_time), shortcuts)
+                self.linearize_in_space(space, when, cells, state, &mut of.jacobian, shortcuts)
             }
             (Shape::SpaceWithSensors(of), Some(space)) => {
-                self.linearize_in_space(space, when, cells, state, (&mut of.jacobian, by_time), shortcuts)
+                self.linearize_in_space(space, when, cells, state, &mut of.jacobian, shortcuts)
             }
             (Shape::Space(_) | Shape::SpaceWithSensors(_), None) => {}
         }
@@ -138,7 +140,7 @@ impl Model {
 }
 
 /// Where each coordinate of a model's bodies is in its state.
-fn bodies<const B: usize>(model: &Model) -> [Option<BodyIndices>; B] {
+pub(super) fn bodies<const B: usize>(model: &Model) -> [Option<BodyIndices>; B] {
     let layout = &model.layout;
     let free = |i: usize| model.space.as_ref().is_none_or(|space| space.free[i]);
     let per_ring = if model.space.is_some() { COORDINATES } else { PLANE_RINGS / 2 };

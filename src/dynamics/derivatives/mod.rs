@@ -1,6 +1,7 @@
 //! Derivatives of the equations of motion: the Jacobian, and the change with an input or by time.
 
 mod arrow;
+mod by_time;
 mod change;
 mod elimination;
 mod fastest;

@@ -126,7 +126,7 @@ impl Model {
     }
 
     /// Forces of a ball as all that it meets changes; of one in balance `by` is given the change of its place.
-    fn changing_ball_forces(
+    pub(super) fn changing_ball_forces(
         &self,
         space: &Space,
         (cells, state): (&Cells, &[f64]),

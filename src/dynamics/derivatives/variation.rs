@@ -98,7 +98,7 @@ impl Model {
     }
 
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.
-    fn changing_forces(
+    pub(super) fn changing_forces(
         &self,
         j: usize,
         cells: &Cells,

@@ -195,8 +195,7 @@ impl Model {
             let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
             let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
             let ball = seeded.ball_moving(self, seeds, [none; 2]);
-            let standing = at.lifted::<STANDING>();
-            let [inner, outer] = self.chained_on_ball(space, cells, (&standing, none), &ball, shortcuts);
+            let [inner, outer] = self.chained_on_ball::<_, STANDING, _>(space, cells, at, &ball, shortcuts);
             let force = plus(inner.force, outer.force);
             (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
         } else {

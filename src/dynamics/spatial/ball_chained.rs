@@ -1,5 +1,4 @@
-//! A ball's contacts with many derivatives. What a contact exerts depends on how the ball is seen from its ring and,
-//! near a defect, on time. It is worked out with derivatives by these few numbers, and the chain rule gives all others.
+//! A ball's contacts with many derivatives. What a contact exerts depends on how the ball is seen from its ring. It is worked out with derivatives by these few numbers, and the chain rule gives all others.
 
 use super::ball::{Ball, OnBall, Seen};
 use super::ball_contacts::BallMotion;
@@ -11,16 +10,16 @@ use crate::numerics::number::{Dual, Scalar};
 
 /// Derivatives by where a ball is and where its ring's axis points.
 pub(in crate::dynamics) const STANDING: usize = 6;
-/// The same, by how fast both move, and by time.
-pub(in crate::dynamics) const MOVING: usize = 13;
+/// The same, and by how fast both move.
+pub(in crate::dynamics) const MOVING: usize = 12;
 
 impl<N: Scalar, const K: usize> Seen<Dual<N, K>> {
-    /// What a contact depends on: place, axis, their rates, time.
-    fn numbers(&self, time: Dual<N, K>) -> [Dual<N, K>; MOVING] {
+    /// What a contact depends on: place, axis, their rates.
+    fn numbers(&self) -> [Dual<N, K>; MOVING] {
         let (q, a, rate, turning) = (self.q, self.axis.direction, self.rate, self.axis.turning);
         let [[q_r, q_t, q_z], [a_r, a_t, a_z]] = [q, a];
         let [[v_r, v_t, v_z], [t_r, t_t, t_z]] = [rate, turning];
-        [q_r, q_t, q_z, a_r, a_t, a_z, v_r, v_t, v_z, t_r, t_t, t_z, time]
+        [q_r, q_t, q_z, a_r, a_t, a_z, v_r, v_t, v_z, t_r, t_t, t_z]
     }
 
     /// The same ball with derivatives by the first `L` of these.
@@ -39,21 +38,22 @@ impl<N: Scalar, const K: usize> Seen<Dual<N, K>> {
 }
 
 impl Model {
-    /// What the inner and the outer contact exert on a ball; `at` has derivatives by no more than time, which is the
-    /// last of its `L` numbers if it is one of them.
+    /// What the inner and the outer contact exert on a ball that moves as it is seen, with derivatives by `L` of what
+    /// they depend on.
     pub(in crate::dynamics) fn chained_on_ball<N: Scalar, const L: usize, const K: usize>(
         &self,
         space: &Space,
         cells: [[u32; 2]; 2],
-        (at, time): (&BallMotion<Dual<N, L>>, Dual<N, K>),
+        at: &BallMotion<N>,
         ball: &Ball<Dual<N, K>>,
         shortcuts: &mut Shortcuts,
     ) -> [OnBall<Dual<N, K>>; 2] {
         let laws = [&self.inner.contact, &self.outer.contact];
+        let lifted = at.lifted::<L>();
         let mut of = |side: RacewaySide, seen: &Seen<Dual<N, K>>| {
             let (law, cells) = (laws[side as usize], cells[side as usize]);
-            let found = self.ball_contact((law, side), space, cells, at, &seen.by_itself(), shortcuts);
-            let numbers = seen.numbers(time);
+            let found = self.ball_contact((law, side), space, cells, &lifted, &seen.by_itself(), shortcuts);
+            let numbers = seen.numbers();
             let chained =
                 |[a, b, c]: &Spatial<Dual<N, L>>| [a.chained(&numbers), b.chained(&numbers), c.chained(&numbers)];
             OnBall { force: chained(&found.on_ball.force), moment: chained(&found.on_ball.moment) }

@@ -165,8 +165,8 @@ impl Stepper<'_> {
             None => workspace.first_stage(*problem, 0.0, progress),
         }
         if progress.choice.stable_step == 0.0 && control.method != Method::Rodas {
-            workspace.linearize(*problem, 0.0, progress);
-            progress.choice.check_first(workspace.jacobian.fastest(), control.method, control.tolerance);
+            let fastest = workspace.fastest(*problem, 0.0, progress);
+            progress.choice.check_first(fastest, control.method, control.tolerance);
         }
         workspace.pair = control.method.pair(control.tolerance, progress.choice.damped);
         Ok(())
@@ -363,8 +363,8 @@ impl Stepper<'_> {
             }
             progress.choice.implicit_step(span.length, taken.tried, workspace.jacobian.fastest(), *method, *tolerance);
         } else if progress.choice.explicit_step(span.length, taken.tried, taken.short) {
-            workspace.linearize(*problem, span.end(), progress);
-            progress.choice.check_explicit(workspace.jacobian.fastest(), *method, *tolerance);
+            let fastest = workspace.fastest(*problem, span.end(), progress);
+            progress.choice.check_explicit(fastest, *method, *tolerance);
         }
         workspace.pair = method.pair(*tolerance, progress.choice.damped);
     }

@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn where_nothing_moves_by_itself_the_stable_step_is_a_number() {
         let mut choice = Choice::default();
-        choice.check_first(&Fastest { eigenvalue: 0.0, damping: 1.0 }, Method::Automatic, 1e-5);
+        choice.check_first(Fastest { eigenvalue: 0.0, damping: 1.0 }, Method::Automatic, 1e-5);
         assert!(choice.stable_step.is_finite() && choice.is_possible());
         assert_eq!(choice.limited(1e-3), 1e-3);
     }

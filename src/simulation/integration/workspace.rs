@@ -5,7 +5,7 @@
 
 use super::progress::Progress;
 use crate::dynamics::contacts::{Forces, RingForces};
-use crate::dynamics::derivatives::Jacobian;
+use crate::dynamics::derivatives::{Fastest, Jacobian};
 use crate::dynamics::parameters::{Excitation, Layout, Model, StepEnds};
 use crate::numerics::lanes::row::Row;
 use crate::scene::Motion;
@@ -144,13 +144,24 @@ impl Workspace {
         self.linearized = false;
     }
 
-    /// Jacobian at the start of the next step, unless it is there.
+    /// Jacobian and derivative by time at the start of the next step, unless they are there.
     pub(super) fn linearize(&mut self, problem: Problem, tau: f64, progress: &Progress) {
         if !self.linearized {
-            let (jacobian, shortcuts) = (&mut self.jacobian, &mut self.forces.shortcuts);
-            problem.model.linearize(problem.excitation, tau, &progress.cells, &progress.state, jacobian, shortcuts);
+            let Problem { model, excitation } = problem;
+            let (Progress { cells, state, .. }, shortcuts) = (progress, &mut self.forces.shortcuts);
+            model.linearize(excitation, tau, cells, state, &mut self.jacobian, shortcuts);
+            model.derivative_by_time(excitation, tau, cells, state, &mut self.jacobian, shortcuts);
             self.linearized = true;
         }
+    }
+
+    /// What moves fastest at `tau`, where the next step starts.
+    pub(super) fn fastest(&mut self, problem: Problem, tau: f64, progress: &Progress) -> Fastest {
+        let Problem { model, excitation } = problem;
+        let (jacobian, shortcuts) = (&mut self.jacobian, &mut self.forces.shortcuts);
+        model.linearize(excitation, tau, &progress.cells, &progress.state, jacobian, shortcuts);
+        self.linearized = false;
+        jacobian.fastest()
     }
 
     /// Error of the step tried last, per tolerance. Infinite as soon as one state's is not finite.

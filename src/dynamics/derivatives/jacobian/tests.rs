@@ -217,6 +217,7 @@ fn compare(element: &RollingElement, bearer: Bearer, angles: impl IntoIterator<I
             let len = model.layout.len;
             let mut jacobian = Jacobian::new(&model);
             model.linearize(&excitation, tau, &cells, &state, &mut jacobian, &mut Shortcuts::default());
+            model.derivative_by_time(&excitation, tau, &cells, &state, &mut jacobian, &mut Shortcuts::default());
             let matrix = jacobian.matrix(len);
             let mut forces = Forces::of(&model);
             let mut at = |tau: f64, state: &[f64]| {
