@@ -209,14 +209,14 @@ impl Model {
 
     /// w' (m/s²) of an element under this `radial` force of its contacts (N) as the outer ring goes at `housing` (m/s).
     #[inline(always)]
-    pub(in crate::dynamics) fn radial_acceleration<T: Scalar, E: Scalar>(
+    pub(in crate::dynamics) fn radial_acceleration<T, E: Scalar>(
         &self,
         at: &ElementMotion<T, E>,
         radial: T,
         housing: Vector<T>,
     ) -> T
     where
-        T: Mul<E, Output = T> + Add<E, Output = T>,
+        T: Scalar + Mul<E, Output = T> + Add<E, Output = T>,
     {
         let turning = at.omega * (along(&housing, &at.e_t) + self.distance(at) * at.omega);
         radial * T::Plain::from(self.per_mass_of(at.element)) + self.gravity.map(E::from).dot(&at.e_r) + turning
