@@ -313,8 +313,8 @@ impl<S: Wide, E: Elastic> Smooth<'_, S, E> {
         let (delta, [n_r, n_t]) = (gap.approach, gap.n);
         let pace = number(now.cage.speed);
         let speed = if GENERAL { of(&block.pace) * pace } else { pace };
-        let along = dot(simd, -turned(self.drift), e_r) + rho * speed;
-        let closing = gap.closing([dot(simd, self.drift, e_r) + path_rate, along]);
+        let drift = [dot(simd, self.drift, e_r), dot(simd, -turned(self.drift), e_r)];
+        let closing = gap.closing(InnerGap::q_rate(drift, path_rate, rho, speed));
 
         let law = &self.law;
         let mut inner = law.force(of(&block.inner), delta, closing);

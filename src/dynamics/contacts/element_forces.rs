@@ -138,11 +138,13 @@ impl<T: Scalar + Mul<E, Output = T>, E: Scalar> ElementMotion<T, E> {
         Place { element, cells, u: path, angle, frames, films: None, curved }
     }
 
-    /// Rings' offset (m) and rate of q (m/s) along and across e_r, of the element `rho` (m) from the outer ring's centre.
+    /// Rings' offset (m) and rate of q (m/s) along and across e_r, the element being `rho` (m) from the outer ring's
+    /// centre.
     #[inline(always)]
     pub(super) fn seen_from_inner(&self, rho: T) -> ([T; 2], [T; 2]) {
         let Self { e_r, e_t, offset, drift, .. } = self;
-        let q_rate = [along(drift, e_r) + self.path_rate, along(drift, e_t) + rho * self.omega];
+        let drift = [along(drift, e_r), along(drift, e_t)];
+        let q_rate = InnerGap::q_rate(drift, self.path_rate, rho, self.omega);
         ([along(offset, e_r), along(offset, e_t)], q_rate)
     }
 }

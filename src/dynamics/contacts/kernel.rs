@@ -90,6 +90,13 @@ impl<T: Number> InnerGap<T> {
         Self { approach: -clearance - u - p - longer, n, distance }
     }
 
+    /// Rate q̇ (m/s) along and across e_r of an element `rho` (m) from the outer ring's centre, whose path changes at
+    /// u' (m/s) and which goes round with `omega` (rad/s), as the rings draw apart at `drift` (m/s) along and across.
+    #[inline(always)]
+    pub(in crate::dynamics) fn q_rate([along, across]: [T; 2], path_rate: T, rho: T, omega: T) -> [T; 2] {
+        [along + path_rate, across + rho * omega]
+    }
+
     /// Rate δ̇ (m/s) as q changes at `q_rate` (m/s).
     #[inline(always)]
     pub(in crate::dynamics) fn closing(&self, [q_r, q_t]: [T; 2]) -> T {

@@ -20,7 +20,7 @@ use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use std::ops::Mul;
 
-/// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle of the frame less that of the element,
+/// Directions of the inner contact's derivatives: q and q̇ along e_r and e_t, angle of the frame less the element's,
 /// speed of the frame, film speed.
 const INNER: usize = 7;
 /// Of the outer contact's: u, u', angle and speed against the frame, film speed.

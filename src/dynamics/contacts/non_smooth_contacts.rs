@@ -2,7 +2,7 @@
 //! time, before the others.
 
 use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
-use super::kernel::{ContactForce, Meeting, Near};
+use super::kernel::{ContactForce, InnerGap, Meeting, Near};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
@@ -107,8 +107,8 @@ impl Model {
             let near = self
                 .near(RacewaySide::Inner, &at, frames, shortcuts)
                 .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
-            let around = (self.centre_radius(j) + u) * speed;
-            let q_rate = [now.drift().dot(&e_r) + path_rate, now.drift().dot(&turned(e_r)) + around];
+            let (drift, rho) = ([now.drift().dot(&e_r), now.drift().dot(&turned(e_r))], self.centre_radius(j) + u);
+            let q_rate = InnerGap::q_rate(drift, path_rate, rho, speed);
             let found = near.force(law, film, [gap.closing(q_rate), gap.turning(q_rate)], frames);
             let [f_r, f_t] = gap.turned(found.force);
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];

@@ -113,12 +113,7 @@ impl<const N: usize, const R: usize, const B: usize> ArrowJacobian<N, R, B> {
         }
     }
 
-    /// The fastest of the elements and bodies, each taken alone while all else stands still: an element along and
-    /// across what its stiffness and its damping are largest along.
-    ///
-    /// Neighbours that move too make the eigenvalue larger: without damping by √3 at most; with damping, among many
-    /// assemblies, by less than 2 where rings are heavier than an element and by less than 3 where they are not.
-    /// `tests/motion/fastest_eigenvalue.rs` compares it with all eigenvalues.
+    /// As [`Jacobian::fastest`](super::Jacobian::fastest).
     pub(super) fn fastest(&self) -> Fastest {
         let mut fastest = Fastest::default();
         for block in &self.elements {

@@ -36,8 +36,8 @@ impl Model {
         })
     }
 
-    /// Puts the derivative of the right-hand side by time at constant state into [`Jacobian::by_time`]. What elements in
-    /// balance at every instant make of it is left out: no method asks for it.
+    /// Puts the derivative of the right-hand side by time at constant state into [`Jacobian::by_time`]. What elements
+    /// in balance at every instant make of it is left out: no method asks for it.
     pub fn derivative_by_time(
         &self,
         excitation: &Excitation,

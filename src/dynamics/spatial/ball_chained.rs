@@ -1,4 +1,5 @@
-//! A ball's contacts with many derivatives. What a contact exerts depends on how the ball is seen from its ring. It is worked out with derivatives by these few numbers, and the chain rule gives all others.
+//! A ball's contacts with many derivatives. What a contact exerts depends on how the ball is seen from its ring. It
+//! is worked out with derivatives by these few numbers, and the chain rule gives all others.
 
 use super::ball::{Ball, OnBall, Seen};
 use super::ball_contacts::BallMotion;
