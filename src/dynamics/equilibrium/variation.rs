@@ -55,19 +55,19 @@ impl Model {
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now, shortcuts);
             self.add_balanced(&element, &mut jacobian);
-            force += self.answer(&element, state, &now, by, shortcuts).rings;
+            force += self.balanced_change(&element, state, &now, by, shortcuts).rings;
         }
         by.move_rings(&self.balancing_motion(&jacobian, force)?);
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now, shortcuts);
-            by.path[j] = self.answer(&element, state, &now, by, shortcuts).path;
+            by.path[j] = self.balanced_change(&element, state, &now, by, shortcuts).path;
             by.radial_velocity[j] = by.housing.velocity.dot(&element.at.e_r);
         }
         Some(())
     }
 
     /// What a change does to an element that keeps its balance and stands on its path.
-    fn answer(
+    fn balanced_change(
         &self,
         element: &Linearized,
         state: &[f64],
@@ -78,8 +78,8 @@ impl Model {
         let changing = self.changing_motion(element.at.element, state, now, by, shortcuts);
         let at = changing.mapped(|number| Dual { value: number.value, by: [0.0, number.by[0]] });
         let (path, path_rate) = (Dual::variable(element.at.path, 0), Dual::constant(0.0));
-        let [_, answer] = self.balanced(element, &ElementMotion { path, path_rate, ..at });
-        answer
+        let [_, change] = self.balanced(element, &ElementMotion { path, path_rate, ..at });
+        change
     }
 
     /// An element at the start; of one whose balance lies between two paths, at the path at which more touches it.

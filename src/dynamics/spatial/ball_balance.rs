@@ -20,7 +20,7 @@ use super::ball_chained::STANDING;
 use super::ball_contacts::{BallForces, BallMotion};
 use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
-use crate::dynamics::parameters::{COORDINATES, Frames, Model, RINGS, RingInSpace, Space, Turn};
+use crate::dynamics::parameters::{COORDINATES, Model, RINGS, Space};
 use crate::numerics::number::{Dual, Scalar};
 
 /// Rounding of distances of some 20 mm (m): a step shorter than this is none.
@@ -56,36 +56,6 @@ pub(in crate::dynamics) struct BallTangent<T: Scalar = f64> {
 
 /// A number with derivatives by u and v.
 type ByBall = Dual<f64, 2>;
-
-impl<T: Scalar> BallMotion<T> {
-    /// The same as dual numbers that do not change.
-    pub(in crate::dynamics) fn lifted<const K: usize>(&self) -> BallMotion<Dual<T, K>> {
-        let constant = Dual::<T, K>::constant;
-        let frame = |turn: Turn<T>| Turn { angle: constant(turn.angle), speed: constant(turn.speed) };
-        let ring = |ring: RingInSpace<T>| RingInSpace {
-            position: ring.position.map(constant),
-            velocity: ring.velocity.map(constant),
-        };
-        BallMotion {
-            element: self.element,
-            e_r: self.e_r.map(constant),
-            angle: constant(self.angle),
-            omega: constant(self.omega),
-            rings: self.rings.map(ring),
-            frames: Frames(self.frames.0.map(frame)),
-            curved: self.curved,
-            tried: self.tried,
-        }
-    }
-
-    /// The same positions with nothing moving.
-    pub(in crate::dynamics) fn standing(&self) -> Self {
-        let none = T::from(0.0);
-        let rings = self.rings.map(|ring| RingInSpace { velocity: [none; COORDINATES], ..ring });
-        let frames = Frames(self.frames.0.map(|turn| Turn { speed: none, ..turn }));
-        Self { omega: none, rings, frames, ..*self }
-    }
-}
 
 impl Model {
     /// R_r and R_z (N) of a ball at u and v that keeps there, and its contacts; it feels the centrifugal force of

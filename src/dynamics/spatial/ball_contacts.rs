@@ -6,8 +6,8 @@ use crate::contact::groove::{Axis, dot};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Meeting, Near, Shortcuts};
-use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space};
-use crate::numerics::number::Scalar;
+use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space, Turn};
+use crate::numerics::number::{Dual, Scalar};
 
 /// A ball and what it meets.
 #[derive(Debug, Clone, Copy)]
@@ -68,6 +68,38 @@ impl<T: Scalar> BallForces<T> {
 }
 
 impl<T: Scalar> BallMotion<T> {
+    /// The same in numbers of another kind.
+    pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> BallMotion<U> {
+        let frame = |turn: Turn<T>| Turn { angle: number(turn.angle), speed: number(turn.speed) };
+        let ring = |ring: RingInSpace<T>| RingInSpace {
+            position: ring.position.map(&number),
+            velocity: ring.velocity.map(&number),
+        };
+        BallMotion {
+            element: self.element,
+            e_r: self.e_r.map(&number),
+            angle: number(self.angle),
+            omega: number(self.omega),
+            rings: self.rings.map(ring),
+            frames: Frames(self.frames.0.map(frame)),
+            curved: self.curved,
+            tried: self.tried,
+        }
+    }
+
+    /// The same as dual numbers that do not change.
+    pub(in crate::dynamics) fn lifted<const K: usize>(&self) -> BallMotion<Dual<T, K>> {
+        self.mapped(Dual::constant)
+    }
+
+    /// The same positions with nothing moving.
+    pub(in crate::dynamics) fn standing(&self) -> Self {
+        let none = T::from(0.0);
+        let rings = self.rings.map(|ring| RingInSpace { velocity: [none; COORDINATES], ..ring });
+        let frames = Frames(self.frames.0.map(|turn| Turn { speed: none, ..turn }));
+        Self { omega: none, rings, frames, ..*self }
+    }
+
     /// The ball at u, v, w and w_z.
     // A function for each kind of number, once: with derivatives it is long.
     #[inline(never)]

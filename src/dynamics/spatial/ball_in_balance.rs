@@ -44,25 +44,6 @@ fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
 }
 
 impl<T: Scalar> BallMotion<T> {
-    /// The numbers without their derivatives.
-    fn values(&self) -> BallMotion {
-        use crate::dynamics::parameters::{Frames, Turn};
-        let frame = |turn: Turn<T>| Turn { angle: turn.angle.value(), speed: turn.speed.value() };
-        BallMotion {
-            element: self.element,
-            e_r: self.e_r.map(T::value),
-            angle: self.angle.value(),
-            omega: self.omega.value(),
-            rings: self.rings.map(|ring| RingInSpace {
-                position: ring.position.map(T::value),
-                velocity: ring.velocity.map(T::value),
-            }),
-            frames: Frames(self.frames.0.map(frame)),
-            curved: self.curved,
-            tried: self.tried,
-        }
-    }
-
     /// All that stands where it is, with the derivatives by time that its motion gives it; and the speed with its own.
     fn by_time(&self, alpha: T) -> (BallMotion<Moving<T>>, Moving<T>) {
         let along = |value: T, rate: T| {
@@ -127,7 +108,7 @@ impl Model {
         (at, alpha): (&BallMotion<T>, T),
         shortcuts: &mut Shortcuts,
     ) -> BallInBalance<T> {
-        let found = self.balanced_place(space, cells, guess, &at.values(), shortcuts);
+        let found = self.balanced_place(space, cells, guess, &at.mapped(T::value), shortcuts);
         let (moving, omega) = at.by_time(alpha);
         let mut place = found.map(T::from);
         let seeded = |place: [T; 2]| [0, 1].map(|k: usize| Moving::variable(place[k], k));
