@@ -6,13 +6,14 @@ use brinell::dynamics::derivatives::Jacobian;
 use brinell::scene::{ContactLaw, Damping, Sensor};
 use std::f64::consts::{PI, TAU};
 
-/// A bearing with both rings free, a sensor along a slope and a spall under element 1, shortly after a step of its
+/// A bearing with both rings free, sensors along a slope and a spall under element 1, shortly after a step of its
 /// loads.
-fn moving(bearing: Bearing) -> Simulation {
+fn moving(bearing: Bearing, sensors: usize) -> Simulation {
     let mut sensor = Sensor::default();
     sensor.set_direction([0.6, 0.64, 0.48]);
     let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 60.0);
-    let scene = scene.shaft_load([20.0, -200.0]).axial_load(400.0).cage(0.0, -0.5 * PI + 0.004).sensor(sensor);
+    let scene = scene.shaft_load([20.0, -200.0]).axial_load(400.0).cage(0.0, -0.5 * PI + 0.004);
+    let scene = (0..sensors).fold(scene, |scene, _| scene.sensor(sensor.clone()));
     let scene = scene.spall(-0.5 * PI, 0.5e-3, 50e-6).law(ContactLaw::Hertz).damping(Damping::HuntCrossley(0.5));
     let mut scene = scene.build().unwrap();
     scene.shaft.tilt.load_moment = [0.3, 0.2];
@@ -25,8 +26,9 @@ fn moving(bearing: Bearing) -> Simulation {
 
 #[test]
 fn the_jacobian_is_the_quotient_of_differences() {
-    for bearing in [angular(25.0), b6205(8e-6)] {
-        let simulation = moving(bearing);
+    // With several sensors the linear system has another size.
+    for (bearing, sensors) in [(angular(25.0), 1), (b6205(8e-6), 2)] {
+        let simulation = moving(bearing, sensors);
         let (model, mut excitation) = simulation.equations();
         excitation.beyond[0].load[0].0[1] = 1e4;
         let (state, cells, len) = (simulation.state_vector().to_vec(), simulation.cells().clone(), model.layout.len);
@@ -187,7 +189,7 @@ fn loads_move_the_balance_by_the_directional_derivative() {
 
 #[test]
 fn outputs_change_by_time_as_their_derivatives_say() {
-    let mut simulation = moving(angular(25.0));
+    let mut simulation = moving(angular(25.0), 1);
     let names = ["shaft.force.z", "shaft.moment.y", "shaft.az", "element[2].axial", "element[2].contact_angle.outer"];
     let outputs = names.map(|name| simulation.reference(name).unwrap());
     let mut exact = [0.0; 5];

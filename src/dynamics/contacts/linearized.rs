@@ -1,4 +1,4 @@
-//! One element's contacts to first order: the one source of their derivatives.
+//! One element's contacts to first order, by the few numbers that each follows from.
 //!
 //! From it are assembled the [Jacobian](crate::dynamics::derivatives::jacobian) of stiff steps, the elements' and
 //! rings' balance of the [start](crate::dynamics::equilibrium::search) and how that moves, and the tangent stiffness.

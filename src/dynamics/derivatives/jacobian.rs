@@ -1,4 +1,5 @@
-//! Exact Jacobian of the right-hand side, damping included; and (s − J) x = b.
+//! Exact Jacobian of the right-hand side, damping included; and (s − J) x = b. Of elements in balance at every instant
+//! the change of damping is left out.
 //!
 //! All derivatives are those of the equations of motion over dual numbers: in the [plane](super::plane_jacobian), in
 //! [space](super::spatial_jacobian). They are those of the branch that the state is in; at the onset of a contact there
@@ -70,7 +71,7 @@ impl Jacobian {
     pub fn new(model: &Model) -> Self {
         let layout = &model.layout;
         let count = if model.elements_in_balance() { 0 } else { model.element_count };
-        let many = model.supports.sensors.len() > 1;
+        let many = model.supports.size() == BODIES;
         let w = layout.radial_velocity;
         let shape = match layout.axial() {
             None if many => Shape::PlaneWithSensors(Solvable::new(count, bodies(model), [[0], [w]])),

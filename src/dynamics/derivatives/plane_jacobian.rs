@@ -10,6 +10,7 @@ use crate::numerics::plane::Vector;
 
 /// Derivatives: by u and w, by the rings' positions, by their velocities.
 type ByState = Dual<f64, { 2 + 2 * PLANE_RINGS }>;
+
 impl Model {
     /// As [`Model::linearize`] in the plane.
     pub(super) fn linearize_in_plane<const B: usize>(

@@ -88,6 +88,7 @@ impl Model {
         of_paths + forces.torque_on(Frame::Spin)
     }
 }
+
 /// The right-hand side from outside of kernels.
 struct Derivative<'a> {
     model: &'a Model,
@@ -107,8 +108,7 @@ impl Kernel for Derivative<'_> {
 }
 
 /// The right-hand side as it is compiled, each kind without the others' work: if `AHEAD`, with positions that are still
-/// to be moved on; if `GENERAL`, in an uneven cage, with oil films, of elements in
-/// balance or in space.
+/// to be moved on; if `GENERAL`, in an uneven cage, with oil films, of elements in balance or in space.
 struct Evaluation<'a, const RECORD: bool, const AHEAD: bool, const GENERAL: bool> {
     model: &'a Model,
     stage: Stage<'a>,

@@ -82,7 +82,7 @@ pub struct Workspace {
     /// Which explicit method steps.
     pub(super) pair: ExplicitMethod,
     pub(super) jacobian: Jacobian,
-    /// The Jacobian belongs to the start of the step.
+    /// Jacobian and derivative by time belong to the start of the step.
     pub(in crate::simulation) linearized: bool,
     pub(in crate::simulation) forces: Forces,
     pub(super) dense: Row,
