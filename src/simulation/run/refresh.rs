@@ -1,8 +1,9 @@
 //! What outputs follow from is computed when somebody reads one, and each output when it is read itself.
 //!
 //! The right-hand side at a communication point is evaluated once: for whoever reads there first, or for the step that
-//! begins there. The last stage of the step before it is another evaluation: time counts from the communication point, so
-//! that its last bits differ, and inputs may have changed. Under law `love` both evaluate it, since what was solved last is where the next solution begins.
+//! begins there. The last stage of the step before is another evaluation: time counts from the communication point, so
+//! that its last bits differ, and inputs may have changed. Under law `love` both evaluate it, since what was solved
+//! last is where the next solution begins.
 
 use super::life::{Simulation, UpToDate};
 use super::state::Ended;
