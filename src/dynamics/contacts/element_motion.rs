@@ -40,7 +40,6 @@ impl<T: Scalar> ElementMotion<T> {
     #[inline(always)]
     pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> ElementMotion<U> {
         let vector = |vector: Vector<T>| vector.map(&number);
-        let frame = |turn: Turn<T>| Turn { angle: number(turn.angle), speed: number(turn.speed) };
         ElementMotion {
             element: self.element,
             e_r: vector(self.e_r),
@@ -52,7 +51,7 @@ impl<T: Scalar> ElementMotion<T> {
             path_rate: number(self.path_rate),
             offset: vector(self.offset),
             drift: vector(self.drift),
-            frames: Frames(self.frames.0.map(frame)),
+            frames: self.frames.mapped(&number),
             films: self.films,
             film_speed: number(self.film_speed),
             curved: self.curved,
@@ -118,8 +117,7 @@ impl<T: Scalar> ElementMotion<T> {
     /// The same positions, nothing moving.
     pub(in crate::dynamics) fn standing(&self) -> Self {
         let none = T::from(0.0);
-        let frames = Frames(self.frames.0.map(|turn| Turn { speed: none, ..turn }));
-        let drift = Vector::zeros();
+        let (drift, frames) = (Vector::zeros(), self.frames.at_rest());
         Self { omega: none, alpha: none, path_rate: none, drift, frames, ..*self }
     }
 

@@ -81,17 +81,14 @@ impl<T: Scalar, const K: usize> FirstOrder<T, K> {
     /// The force as what it follows from changes.
     #[inline(always)]
     fn chained<const SMOOTH_DIRECTIONS: usize, const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
-        let chained = |count: usize| {
-            let mut found = self.force.map(Dual::constant);
-            for i in 0..count {
-                for k in 0..M {
-                    found.x.by[k] += self.by[i].x * of[i].by[k];
-                    found.y.by[k] += self.by[i].y * of[i].by[k];
-                }
-            }
-            found
-        };
-        if self.is_smooth { chained(SMOOTH_DIRECTIONS) } else { chained(K) }
+        if self.is_smooth { self.along::<SMOOTH_DIRECTIONS, M>(of) } else { self.along::<K, M>(of) }
+    }
+
+    /// The same by the first directions.
+    #[inline(always)]
+    fn along<const N: usize, const M: usize>(&self, of: &[Dual<T, M>; K]) -> Vector<Dual<T, M>> {
+        let part = |part| Dual::<T, N> { value: self.force[part], by: std::array::from_fn(|i| self.by[i][part]) };
+        Vector::new(part(0).chained(of), part(1).chained(of))
     }
 }
 
@@ -215,9 +212,7 @@ impl Model {
         at: &ElementMotion<T>,
         shortcuts: &mut Shortcuts,
     ) -> FirstOrder<T, OUTER> {
-        let constant = Dual::<T, K>::constant;
-        let turn = |turn: Turn<T>| Turn { angle: constant(turn.angle), speed: constant(turn.speed) };
-        let frames = Frames(at.frames.0.map(turn));
+        let frames = at.frames.mapped(Dual::<T, K>::constant);
         let films = at.films.map(|films| films.following(seed(at.film_speed, 4)));
         FirstOrder::of(self.outer_contact(
             contact,

@@ -4,7 +4,7 @@ use super::arrow::{ArrowJacobian, ElementToFirstOrder};
 use super::change::Changing;
 use crate::dynamics::contacts::{ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PLANE_RINGS, PathMotion};
-use crate::dynamics::quasi_static::{RingJacobian, stacked};
+use crate::dynamics::quasi_static::{RingJacobian, add_by_offset, stacked};
 use crate::numerics::number::Dual;
 use crate::numerics::plane::Vector;
 
@@ -74,9 +74,7 @@ impl Model {
                 moving.drift[axis] = Changing::variable(at.drift[axis], 0);
                 let found = self.in_balance(in_cells, at.path, &moving, shortcuts);
                 let [shaft, housing] = found.element().on_rings();
-                let rings = stacked(shaft, housing).map(|force| force.by[0]);
-                by_velocity.column_mut(axis).zip_apply(&rings, |sum, force| *sum -= force);
-                by_velocity.column_mut(2 + axis).zip_apply(&rings, |sum, force| *sum += force);
+                add_by_offset(&mut by_velocity, axis, &stacked(shaft, housing).map(|force| force.by[0]));
                 if axis == 1 {
                     self.add_balanced(&found.elastic.values(), &mut by_position);
                 }

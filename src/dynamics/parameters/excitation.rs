@@ -3,6 +3,7 @@
 //! A prescribed ring moves as x + vτ + ½aτ² + ⅙jτ³, loads and shaft speed as their value and derivatives say. Nothing
 //! here depends on absolute time, so the millionth step is as exact as the first.
 
+use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
 
 /// c₀ + c₁τ + ½c₂τ²
@@ -84,10 +85,16 @@ impl<T: Copy> Frames<T> {
     }
 }
 
-impl Frames {
+impl<T: Scalar> Frames<T> {
     /// Frames that stand still at these angles.
     pub fn at_rest(&self) -> Self {
-        Self(self.0.map(|turn| Turn { speed: 0.0, ..turn }))
+        Self(self.0.map(|turn| Turn { speed: T::from(0.0), ..turn }))
+    }
+
+    /// The same in numbers of another kind.
+    #[inline(always)]
+    pub(in crate::dynamics) fn mapped<U>(&self, number: impl Fn(T) -> U) -> Frames<U> {
+        Frames(self.0.map(|turn| Turn { angle: number(turn.angle), speed: number(turn.speed) }))
     }
 }
 

@@ -13,4 +13,4 @@ pub(crate) use tangent::stacked;
 pub(in crate::dynamics) use balance_lanes::SmoothElements;
 pub(in crate::dynamics) use element_balance::InBalance;
 pub(in crate::dynamics) use path_search::PathSearch;
-pub(in crate::dynamics) use tangent::{Balanced, RadialForce};
+pub(in crate::dynamics) use tangent::{Balanced, RadialForce, add_by_offset};

@@ -90,8 +90,7 @@ impl Model {
         let mut at = element.at.by_path::<3>();
         at.offset = Vector::from_fn(|axis, _| Dual::variable(element.at.offset[axis], 1 + axis));
         for (axis, of) in self.balanced(element, &at)[1..].iter().enumerate() {
-            jacobian.column_mut(axis).zip_apply(&of.rings, |sum, force| *sum -= force);
-            jacobian.column_mut(2 + axis).zip_apply(&of.rings, |sum, force| *sum += force);
+            add_by_offset(jacobian, axis, &of.rings);
         }
     }
 
@@ -176,6 +175,12 @@ impl Model {
         let [shaft, housing] = [&self.shaft, &self.housing].map(|ring| ring.motion == Motion::Internal);
         [shaft, shaft, housing, housing]
     }
+}
+
+/// Adds a change of the rings' forces by how far they are apart along one axis.
+pub(in crate::dynamics) fn add_by_offset<T: Scalar>(jacobian: &mut RingJacobian<T>, axis: usize, rings: &Rings<T>) {
+    jacobian.column_mut(axis).zip_apply(rings, |sum, force| *sum -= force);
+    jacobian.column_mut(2 + axis).zip_apply(rings, |sum, force| *sum += force);
 }
 
 /// Vectors of the inner and the outer ring as one.

@@ -6,7 +6,7 @@ use crate::contact::groove::{Axis, dot};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Meeting, Near, Shortcuts};
-use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space, Turn};
+use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space};
 use crate::numerics::number::{Dual, Scalar};
 
 /// A ball and what it meets.
@@ -70,7 +70,6 @@ impl<T: Scalar> BallForces<T> {
 impl<T: Scalar> BallMotion<T> {
     /// The same in numbers of another kind.
     pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> BallMotion<U> {
-        let frame = |turn: Turn<T>| Turn { angle: number(turn.angle), speed: number(turn.speed) };
         let ring = |ring: RingInSpace<T>| RingInSpace {
             position: ring.position.map(&number),
             velocity: ring.velocity.map(&number),
@@ -81,7 +80,7 @@ impl<T: Scalar> BallMotion<T> {
             angle: number(self.angle),
             omega: number(self.omega),
             rings: self.rings.map(ring),
-            frames: Frames(self.frames.0.map(frame)),
+            frames: self.frames.mapped(&number),
             curved: self.curved,
             tried: self.tried,
         }
@@ -96,8 +95,7 @@ impl<T: Scalar> BallMotion<T> {
     pub(in crate::dynamics) fn standing(&self) -> Self {
         let none = T::from(0.0);
         let rings = self.rings.map(|ring| RingInSpace { velocity: [none; COORDINATES], ..ring });
-        let frames = Frames(self.frames.0.map(|turn| Turn { speed: none, ..turn }));
-        Self { omega: none, rings, frames, ..*self }
+        Self { omega: none, rings, frames: self.frames.at_rest(), ..*self }
     }
 
     /// The ball at u, v, w and w_z.
