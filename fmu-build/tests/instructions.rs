@@ -1,6 +1,9 @@
 //! How many instructions the library inside an FMU needs for a step. A count has no noise: what makes the library
 //! slower is seen however busy the machine is, and a loop that is no longer unrolled costs more than the limit.
 //!
+//! The library is the one compiled along with the tests, whose model is optimised as in an FMU and whose C interface is
+//! not; of tests built with `--release` it is the one that FMUs are shipped with.
+//!
 //! Counted by Valgrind's callgrind within `fmi2DoStep` and `fmi2GetReal`, which the test program calls itself, started
 //! a second time under Valgrind. Valgrind has AVX2 and no AVX-512: the path for registers of four numbers is counted.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -14,8 +17,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use brinell::simulation::interface::table::{Causality, Kind};
-use fmu_build::package::{Choice, Library, Model};
-use fmu_build::shared::Project;
+use fmu_build::package::Model;
 use host::Instance;
 
 /// Balls on smooth raceways, a spall under a map, rollers. The rollers of `nu205-healthy` are made straight: Valgrind
@@ -28,6 +30,10 @@ const STEPS: usize = 200;
 const LIMIT: f64 = 0.02;
 /// The same with another compiler than the counts are of, which arranges code differently.
 const LIMIT_OF_ANOTHER_COMPILER: f64 = 0.1;
+/// Table of the counts.
+const TABLE: &str = if cfg!(debug_assertions) { "tests" } else { "packed" };
+/// File name of the library.
+const LIBRARY: &str = "counted.so";
 /// Names the folder of a scene to the program under Valgrind.
 const FOLDER: &str = "BRINELL_COUNTED_FOLDER";
 /// What the program under Valgrind says of a processor without AVX2.
@@ -47,19 +53,22 @@ impl Counts {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/instructions.toml")
     }
 
+    /// All that is committed.
+    fn tables() -> toml::Table {
+        fs::read_to_string(Self::file()).unwrap().parse().unwrap()
+    }
+
     fn read() -> Self {
-        let table: toml::Table = fs::read_to_string(Self::file()).unwrap().parse().unwrap();
-        let counts = table["instructions"].as_table().unwrap();
-        let instructions = counts.iter().map(|(scene, count)| (scene.clone(), count.as_integer().unwrap() as u64));
-        Self { compiler: table["compiler"].as_str().unwrap().to_owned(), instructions: instructions.collect() }
+        let mut table = Self::tables().remove(TABLE).unwrap().try_into::<toml::Table>().unwrap();
+        let compiler = table.remove("compiler").unwrap().try_into().unwrap();
+        let instructions = table.into_iter().map(|(scene, count)| (scene, count.as_integer().unwrap() as u64));
+        Self { compiler, instructions: instructions.collect() }
     }
 
     /// Counts of this source, or why Valgrind cannot take them.
     fn taken() -> Result<Self, &'static str> {
         let folder = common::folder("instructions");
-        let library = folder.join("packed.so");
-        let packed = Library::obtain(&Project::find(), &Choice::default()).unwrap();
-        fs::write(&library, &packed.binaries()[0].bytes).unwrap();
+        fs::write(folder.join(LIBRARY), &common::library().binaries()[0].bytes).unwrap();
         let mut instructions = BTreeMap::new();
         for scene in SCENES {
             instructions.insert(scene.to_owned(), counted(scene, &folder.join(scene))?);
@@ -121,7 +130,7 @@ fn run(folder: &Path) {
     }
     let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let outputs: Vec<u32> = read("outputs").split(' ').map(|reference| reference.parse().unwrap()).collect();
-    let mut instance = Instance::new(&folder.with_file_name("packed.so"), "counted", &read("guid"), folder).unwrap();
+    let mut instance = Instance::new(&folder.with_file_name(LIBRARY), "counted", &read("guid"), folder).unwrap();
     instance.initialize(None).unwrap();
     for step in 0..STEPS {
         instance.step(step as f64 * STEP, STEP).unwrap();
@@ -130,7 +139,7 @@ fn run(folder: &Path) {
 }
 
 #[test]
-#[ignore = "compiles the library that is packed, and needs Valgrind"]
+#[ignore = "needs Valgrind"]
 fn instructions_are_as_many_as_counted() {
     if let Some(folder) = env::var_os(FOLDER) {
         return run(Path::new(&folder));
@@ -163,13 +172,16 @@ fn instructions_are_as_many_as_counted() {
 #[ignore = "writes tests/instructions.toml"]
 fn write_the_counts() {
     let Counts { compiler, instructions } = Counts::taken().unwrap();
-    let mut text = String::from(
-        "# Instructions of the packed library within fmi2DoStep and fmi2GetReal, 200 steps of 1e-4 s, on the path for\n\
-         # AVX2. Written by `cargo test --locked --workspace --test instructions -- --ignored write_the_counts`.\n",
+    let mut counts = toml::Table::from_iter([("compiler".to_owned(), compiler.into())]);
+    counts.extend(instructions.into_iter().map(|(scene, count)| (scene, (count as i64).into())));
+    let mut tables = Counts::tables();
+    tables.insert(TABLE.to_owned(), counts.into());
+    let text = format!(
+        "# Instructions within fmi2DoStep and fmi2GetReal, 200 steps of 1e-4 s, on the path for AVX2: of the library\n\
+         # that is packed, and of the one that tests are built with. Written by\n\
+         # `cargo test --locked --workspace --test instructions -- --ignored write_the_counts`, the first with\n\
+         # `--release` too.\n{}",
+        toml::to_string(&tables).unwrap()
     );
-    text += &format!("compiler = {compiler:?}\n\n[instructions]\n");
-    for (scene, count) in instructions {
-        text += &format!("{scene} = {count}\n");
-    }
     fs::write(Counts::file(), text).unwrap();
 }

@@ -218,7 +218,7 @@ fn pushed(bearing: &SpatialBearing, mut y: Vec<f64>, length: f64) -> Vec<f64> {
 #[test]
 fn every_random_scene_in_space_is_a_possible_one() {
     let drawn = std::sync::Mutex::new(BTreeMap::new());
-    for_seeds(300, |_, draw: &mut Draw| {
+    for_seeds(100, |_, draw: &mut Draw| {
         let case = random(draw);
         let on_ball = case.defects.iter().any(|defect| matches!(defect.on, On::Element { .. }));
         for (what, is) in [
@@ -237,13 +237,13 @@ fn every_random_scene_in_space_is_a_possible_one() {
     });
     let drawn = drawn.into_inner().unwrap();
     println!("{drawn:?}");
-    assert!(drawn.values().all(|&count| count > 25), "hardly drawn: {drawn:?}");
+    assert!(drawn.values().all(|&count| count > 8), "hardly drawn: {drawn:?}");
 }
 
 #[test]
 fn random_scenes_in_space_agree_with_the_oracle() {
     let judged = std::sync::Mutex::new(BTreeMap::<_, Vec<f64>>::new());
-    for_seeds(24, |_, draw| {
+    for_seeds(12, |_, draw| {
         let case = random(draw);
         let (share, why) = judge(&case).map_err(|why| format!("{why}\n{}{:?}", case.toml(), case.steps))?;
         judged.lock().unwrap().entry((case.inertia, why)).or_default().push(share);

@@ -136,15 +136,6 @@ fn integrated_by_somebody_else_elements_go_through_a_spall_as_by_themselves() {
 }
 
 #[test]
-fn twenty_milliseconds_of_a_bearing_integrated_by_somebody_else_are_the_same_to_1e_8() {
-    let scene = Scene { tolerance: 1e-12, ..shipped("6205-healthy") };
-    // Steps of 50 ns leave a sixteenth of what 0.1 µs leave.
-    let (worst, host) = compared(&scene, &["shaft.x", "shaft.y", "housing.y"], 20e-3, 5e-8);
-    assert!(worst < 1e-8, "{worst:e}");
-    assert!(host.events > 0, "no contact began or ended");
-}
-
-#[test]
 fn twenty_milliseconds_of_a_spalled_bearing_integrated_by_somebody_else_are_the_same_to_1e_8() {
     let scene = Scene { tolerance: 1e-12, ..shipped("er16k-tb1") };
     // What is left is the host's: paths are 5e-8 off with steps of 0.1 µs, 9e-9 with half and 2e-9 with a quarter of
@@ -152,6 +143,7 @@ fn twenty_milliseconds_of_a_spalled_bearing_integrated_by_somebody_else_are_the_
     let (worst, host) = compared(&scene, &["shaft.x", "shaft.y", "housing.y", "element[1].path"], 20e-3, 5e-8);
     assert!(worst < 1e-8, "{worst:e}");
     assert!(host.cells_entered >= 4, "{} cells entered", host.cells_entered);
+    assert!(host.events > 0, "no contact began or ended");
 }
 
 #[test]

@@ -83,7 +83,7 @@ fn impulse_table(modes: &[SensorMode], step: f64, first: f64) -> String {
 
 #[test]
 fn an_impulse_response_gives_the_same_modes_whatever_share_of_the_jump_its_first_sample_has() {
-    for (count, step) in [(1, 5e-6), (4, 5e-6), (4, 1e-5)] {
+    for (count, step) in [(1, 5e-6), (4, 1e-5)] {
         let fit = |first| FrequencyResponse::from_csv(&impulse_table(&modes()[..count], step, first)).unwrap().fit();
         let [half, whole] = [0.5, 1.0].map(|first| fit(first).unwrap());
         // What the sum has beside the constant is s Δt²/12 of the jump h(0+) = Σ(2ζωΓ − ωΚ), 3000/s here: at a quarter

@@ -7,11 +7,10 @@ use super::jacobian::{Jacobian, bodies};
 use super::variation::changing_vector;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
-    BODIES, Bodies, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, RINGS, RingInSpace, RingState,
+    BODIES, Bodies, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, RINGS, RingInSpace,
     SPATIAL_BODIES, Space,
 };
 use crate::dynamics::quasi_static::{Rings, stacked};
-use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion};
 
 impl Variation {
@@ -20,10 +19,7 @@ impl Variation {
         (self.cage_angle, self.cage_speed) = (now.cage.speed, now.cage.acceleration);
         (self.film_speed, self.frames) = (excitation.relative_speed.rate_at(tau), excitation.frame_rates(tau));
         self.beyond = model.prescribed_rates(excitation, tau);
-        [self.shaft, self.housing] = self.beyond.map(|ring| {
-            let [position, velocity] = [ring.position, ring.velocity].map(|of| Vector::new(of[0], of[1]));
-            RingState { position, velocity }
-        });
+        [self.shaft, self.housing] = self.beyond.map(|ring| ring.in_plane());
     }
 }
 

@@ -192,15 +192,9 @@ impl Model {
         for j in 0..self.element_count {
             let (at, _) = self.changing_ball_motion(j, &now, &rings, by, shortcuts);
             let place = [changing(state[j], by.path[j]), changing(state[v + j], by.axial[j])];
-            let omega = at.omega;
-            let tangent = self.ball_tangent::<_, { 2 + RINGS }>(
-                space,
-                self.cells_of(cells, j),
-                place,
-                &at.standing(),
-                omega,
-                shortcuts,
-            );
+            let (in_cells, omega) = (self.cells_of(cells, j), at.omega);
+            let tangent =
+                self.ball_tangent::<_, { 2 + COORDINATES }>(space, in_cells, place, &at.standing(), omega, shortcuts);
             for (row, by) in sum.iter_mut().zip(tangent.by_position) {
                 row.iter_mut().zip(by).for_each(|(sum, by)| *sum += by.by[0]);
             }

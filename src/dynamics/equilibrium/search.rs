@@ -87,7 +87,7 @@ impl Model {
     ) -> Result<Rings, EquilibriumError> {
         let mut balance = self.balance(given, rings, u, shortcuts);
         let mut iteration = 0;
-        // An element without a balance where the rings are to begin with is told by the checks below.
+        // An element without a balance where the rings are to begin with is found by the checks below.
         while balance.residual() > balance.limit && balance.residual().is_finite() {
             iteration += 1;
             let step = self.newton_step(given, rings, u, (&balance, iteration), shortcuts);

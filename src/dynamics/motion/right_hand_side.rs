@@ -49,13 +49,10 @@ impl Model {
     ) {
         let model = self;
         // Each written out: one that is made elsewhere and moved here is written in parts and read at once.
-        match (self.needs_general_form(), stage.ahead.is_some() && !RECORD) {
-            (false, false) => {
-                simd.outlined(Evaluation::<RECORD, false, false> { model, stage, derivative, forces });
-            }
-            (false, true) => simd.outlined(Evaluation::<RECORD, true, false> { model, stage, derivative, forces }),
-            (true, false) => simd.outlined(Evaluation::<RECORD, false, true> { model, stage, derivative, forces }),
-            (true, true) => simd.outlined(Evaluation::<RECORD, true, true> { model, stage, derivative, forces }),
+        if self.needs_general_form() {
+            simd.outlined(Evaluation::<RECORD, true> { model, stage, derivative, forces });
+        } else {
+            simd.outlined(Evaluation::<RECORD, false> { model, stage, derivative, forces });
         }
     }
 
@@ -107,24 +104,22 @@ impl Kernel for Derivative<'_> {
     }
 }
 
-/// The right-hand side as it is compiled, each kind without the others' work: if `AHEAD`, with positions that are still
-/// to be moved on; if `GENERAL`, in an uneven cage, with oil films, of elements in balance or in space.
-struct Evaluation<'a, const RECORD: bool, const AHEAD: bool, const GENERAL: bool> {
+/// The right-hand side as it is compiled, each kind without the others' work; if `GENERAL`, in an uneven cage, with oil
+/// films, of elements in balance or in space.
+struct Evaluation<'a, const RECORD: bool, const GENERAL: bool> {
     model: &'a Model,
     stage: Stage<'a>,
     derivative: &'a mut [f64],
     forces: &'a mut Forces,
 }
 
-impl<const RECORD: bool, const AHEAD: bool, const GENERAL: bool> Kernel for Evaluation<'_, RECORD, AHEAD, GENERAL> {
+impl<const RECORD: bool, const GENERAL: bool> Kernel for Evaluation<'_, RECORD, GENERAL> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Wide>(self, simd: S) {
         let Self { model, stage, derivative, forces } = self;
-        let ahead = if AHEAD { Some(stage.ahead.unwrap_or(0.0)) } else { None };
-        let stage = Stage { ahead, ..stage };
-        let Stage { excitation, cage, state, .. } = stage;
+        let Stage { excitation, cage, state, ahead } = stage;
         if GENERAL {
             if let Some(space) = &model.space {
                 return model.spatial_derivative::<S, RECORD>(simd, space, &stage, derivative, forces);

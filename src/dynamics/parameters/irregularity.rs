@@ -8,7 +8,7 @@
 //! ε_j is constant: an element's position in its pocket, or an eccentric cage. ξ_j is stationary, one course for each
 //! element. W is common to all: the cage's own angle, whose rate makes the slip wander. Both are cubic B-splines with
 //! Gaussian coefficients from a counter hash of (seed, course, index), over knots one element spacing and three turns
-//! of the cage apart. What recordings show of each is told in `docs/how-to/defects.md`.
+//! of the cage apart. What recordings show of each is in `docs/how-to/defects.md`.
 //!
 //! A spline's third derivative jumps at its knots. Within a step that is some 1e-14 m of an element's way, far below
 //! what integration leaves, so steps do not end there.

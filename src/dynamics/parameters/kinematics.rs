@@ -3,7 +3,7 @@
 //! The cage is known before the state is, so its part is worked out first, for several instants of a step together.
 //! Rings follow from the state where it has them, else from the host.
 
-use super::excitation::{Cubic, Excitation, Frames, WholeAngle};
+use super::excitation::{Excitation, Frames, WholeAngle};
 use super::film::FilmsNow;
 use crate::numerics::lanes::stay_a_branch;
 use crate::numerics::plane::Vector;
@@ -203,15 +203,6 @@ impl Excitation {
 fn direction(angle: f64) -> Vector {
     let (sin, cos) = sin_cos(angle);
     Vector::new(cos, sin)
-}
-
-/// Rates of a prescribed ring; zero for one that does not move.
-pub(in crate::dynamics) fn prescribed_rate(prescribed: &[Cubic; 2], tau: f64) -> RingState {
-    let [x, y] = prescribed;
-    RingState {
-        position: Vector::new(x.rate_at(tau), y.rate_at(tau)),
-        velocity: Vector::new(x.second_at(tau), y.second_at(tau)),
-    }
 }
 
 /// A position, moved on along its rate by the time `ahead`.

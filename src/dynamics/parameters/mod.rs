@@ -30,4 +30,4 @@ pub(crate) use supports::StepEnds;
 
 pub(in crate::dynamics) use element_block::ElementBlock;
 pub(in crate::dynamics) use film::{FilmsNow, OilFilms};
-pub(in crate::dynamics) use kinematics::{PathMotion, moved, prescribed_rate};
+pub(in crate::dynamics) use kinematics::{PathMotion, moved};

@@ -2,7 +2,6 @@
 
 use crate::dynamics::parameters::{
     Cubic, Excitation, FramedKinematics, Kinematics, Layout, Model, RingInSpace, RingState, Stage, moved,
-    prescribed_rate,
 };
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
@@ -42,15 +41,13 @@ impl Model {
     /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at
     /// rest.
     pub fn ring_rates(&self, excitation: &Excitation, tau: f64, derivative: &[f64]) -> [RingState; 2] {
-        [(self.layout.shaft, &excitation.shaft), (self.layout.housing, &excitation.housing)].map(
-            |(index, prescribed)| match index {
-                Some(i) => RingState {
-                    position: Vector::new(derivative[i], derivative[i + 1]),
-                    velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
-                },
-                None => prescribed_rate(prescribed, tau),
+        [(0, self.layout.shaft), (1, self.layout.housing)].map(|(ring, index)| match index {
+            Some(i) => RingState {
+                position: Vector::new(derivative[i], derivative[i + 1]),
+                velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
             },
-        )
+            None => excitation.prescribed_rates(ring, tau).in_plane(),
+        })
     }
 
     /// Both rings at `tau`, their positions moved on by the time that is still `ahead` (s).

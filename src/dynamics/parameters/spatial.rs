@@ -15,8 +15,11 @@ use crate::contact::groove::Groove;
 use crate::contact::law::elastic_law;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::excitation::{Excitation, Frame};
+use crate::dynamics::parameters::kinematics::RingState;
 use crate::dynamics::parameters::layout::Layout;
 use crate::geometry::hertz_constant::rolling_radii;
+use crate::numerics::number::Scalar;
+use crate::numerics::plane::Vector;
 use crate::scene::{Bearing, DegreesOfFreedom, Gyroscopic, MOST_SENSORS, Motion, Ring, Scene};
 
 /// Coordinates of a ring.
@@ -135,14 +138,19 @@ impl Space {
     }
 
     /// θ_s − |α| − a/r_g (rad) of a contact at the angle α (rad) under a force (N).
-    pub fn shoulder_margin(&self, side: usize, angle: f64, force: f64) -> f64 {
-        let ends = self.shoulders[side].unwrap_or(0.0);
-        ends - angle.abs() - self.half_length(side, force) / self.grooves[side].radius
+    pub fn shoulder_margin<T: Scalar>(&self, side: usize, angle: T, force: T) -> T {
+        let (ends, none) = (T::from(self.shoulders[side].unwrap_or(0.0)), T::from(0.0));
+        let from_bottom = angle.if_less(none, -angle, angle);
+        ends - from_bottom - self.half_length(side, force) / T::from(self.grooves[side].radius)
     }
 
-    /// Half-length (m) of the ellipse of a contact across the groove under a force (N).
-    fn half_length(&self, side: usize, force: f64) -> f64 {
-        self.half_lengths[side] * libm::cbrt(force.max(0.0))
+    /// Half-length (m) of the ellipse of a contact across the groove under a force (N), which grows with its cube root.
+    fn half_length<T: Scalar>(&self, side: usize, force: T) -> T {
+        let root = libm::cbrt(force.value().max(0.0));
+        if root == 0.0 {
+            return T::from(0.0);
+        }
+        T::root_of(root, 3.0 * root * root, |root| root * root * root - force) * T::Plain::from(self.half_lengths[side])
     }
 
     /// Whether a contact at the angle α (rad) under a force (N) is beside places across the groove, given by their
@@ -229,6 +237,14 @@ fn bodies_of(ring: &Ring) -> [Body; COORDINATES] {
 /// inner ring, then of the outer, z and tilt of the inner ring, then of the outer.
 pub const fn force_slot(ring: usize, coordinate: usize) -> usize {
     if coordinate < 2 { 2 * ring + coordinate } else { 2 + 3 * ring + coordinate }
+}
+
+impl RingInSpace {
+    /// What of it is in the plane.
+    pub(in crate::dynamics) fn in_plane(&self) -> RingState {
+        let [position, velocity] = [self.position, self.velocity].map(|of| Vector::new(of[0], of[1]));
+        RingState { position, velocity }
+    }
 }
 
 impl Excitation {

@@ -244,21 +244,19 @@ impl<S: Wide> Balanced<S> {
     #[inline(always)]
     fn damped<E: Elastic>(self, shared: &Shared<E>, at: &ElementLanes<S>) -> Self {
         let number = |number: f64| Lanes::splat(at.simd, number);
-        let Self { path, gap: InnerGap { n: [n_r, n_t], distance, .. }, forces: [inner, outer], .. } = self;
-        let [k_i, k_o] = self.stiffness;
-        let none = number(NO_STIFFNESS);
-        let [drift, across] = at.drift;
-        let around = across + (at.radius + path) * at.speed;
-        let opening = n_r * drift + n_t * around;
-        let turning = n_t * (at.speed - (n_r * around - n_t * drift) / distance);
-        let push = inner * turning - k_i * (n_r * opening) + at.body_rate;
+        let Self { path, gap, forces: [inner, outer], stiffness: [k_i, k_o], .. } = self;
+        let ([n_r, n_t], none) = (gap.n, number(NO_STIFFNESS));
+        // While the path stands.
+        let q_rate = InnerGap::q_rate(at.drift, number(0.0), at.radius + path, at.speed);
+        let (closing, turning) = (gap.closing(q_rate), at.speed - gap.turning(q_rate));
+        let push = inner * (n_t * turning) + k_i * (n_r * closing) + at.body_rate;
         let contacts = k_i * (n_r * n_r) + k_o;
-        let path_rate = push / (contacts - inner * (n_t * n_t) / distance).at_least(none);
+        let path_rate = push / (contacts - inner * (n_t * n_t) / gap.distance).at_least(none);
         // Where nothing touches there is no rate.
         let path_rate = none.if_less(contacts, path_rate, number(0.0));
 
         let law = DampedLaw::new(shared.damping, shared.elastic, number);
-        let closing = -(opening + n_r * path_rate);
+        let closing = closing - n_r * path_rate;
         let d_i = law.damping_of(inner, k_i, closing).at_least(-inner);
         let d_o = law.damping_of(outer, k_o, path_rate).at_least(-outer);
         let change = (d_o * (k_i * (n_r * n_r)) + d_i * (n_r * k_o)) / contacts.at_least(none);

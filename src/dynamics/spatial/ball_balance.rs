@@ -156,7 +156,9 @@ impl Model {
         omega: T,
         shortcuts: &mut Shortcuts,
     ) -> BallTangent<T> {
-        let (residual, rings) = if space.couple_shares == [0.0; 2] {
+        let (residual, rings) = if T::CHANGES || space.couple_shares != [0.0; 2] {
+            self.one_by_one_to_first_order(space, cells, place, (at, omega), shortcuts)
+        } else {
             let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
             let coordinates = seeded.rings.iter_mut().flat_map(|ring| &mut ring.position);
             for (k, x) in coordinates.enumerate().take(K - 2) {
@@ -168,8 +170,6 @@ impl Model {
             let [inner, outer] = self.chained_on_ball::<_, STANDING, _>(space, cells, at, &ball, shortcuts);
             let force = plus(inner.force, outer.force);
             (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
-        } else {
-            self.coupled_to_first_order(space, cells, place, (at, omega), shortcuts)
         };
         let rings = rings.as_flattened();
         let mut tangent = BallTangent {
@@ -188,10 +188,10 @@ impl Model {
         tangent
     }
 
-    /// R_r and R_z and the forces on the rings with derivatives by u, v and the first coordinates of the rings, where
-    /// the contacts hold the couple of the spin. One coordinate after the other: with all of them at once each contact
-    /// would be a quarter of a megabyte of code.
-    fn coupled_to_first_order<T: Scalar, const K: usize>(
+    /// R_r and R_z and the forces on the rings with derivatives by u, v and the first coordinates of the rings, one
+    /// coordinate after the other: where the contacts hold the couple of the spin, or all of it has derivatives itself,
+    /// each contact would be a quarter of a megabyte of code with all of them at once.
+    fn one_by_one_to_first_order<T: Scalar, const K: usize>(
         &self,
         space: &Space,
         cells: [[u32; 2]; 2],

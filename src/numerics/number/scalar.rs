@@ -22,6 +22,9 @@ pub trait Scalar:
     /// How deep derivatives are nested: 0 of a plain number.
     const DEPTH: usize;
 
+    /// Whether it has derivatives.
+    const CHANGES: bool;
+
     /// The number at which `residual` vanishes, known to be `root` without its derivatives; `slope` is the residual's
     /// there. Each of Newton's steps gives one more order of derivatives, exactly.
     #[inline(always)]
@@ -59,6 +62,7 @@ pub trait Scalar:
 
 impl Scalar for f64 {
     const DEPTH: usize = 0;
+    const CHANGES: bool = false;
 
     #[inline(always)]
     fn value(self) -> f64 {
@@ -103,6 +107,7 @@ impl<N: Scalar, const K: usize> From<f64> for Dual<N, K> {
 
 impl<N: Scalar, const K: usize> Scalar for Dual<N, K> {
     const DEPTH: usize = N::DEPTH + 1;
+    const CHANGES: bool = true;
 
     #[inline(always)]
     fn value(self) -> f64 {

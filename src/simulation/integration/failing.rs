@@ -1,5 +1,4 @@
-//! What a step that cannot be taken fails of: told by the state, the contact or the ring that it begins with, not by
-//! what follows from it.
+//! Why a step cannot be taken: the state, the contact or the ring that fails first, not what follows from it.
 
 use super::progress::Progress;
 use super::workspace::{Problem, Span, Workspace};
@@ -38,7 +37,7 @@ pub(super) fn check_step(
 
 /// What changes fastest where no step of length `h` has a finite end: at its start, or in Euler's step on, where
 /// all rates are finite there too. Behind that each NaN makes others NaN, and which was the
-/// first cannot be told.
+/// first is not known.
 fn diverging(workspace: &mut Workspace, problem: Problem, span: Span, step: f64, progress: &Progress) -> StepError {
     let (Problem { model, excitation }, Span { from: since, length: h }) = (problem, span);
     let Workspace { buffers, forces, dense, scratch, weights, .. } = workspace;

@@ -7,6 +7,7 @@ use crate::dynamics::parameters::{
     COORDINATES, Excitation, Frame, Model, RINGS, RingInSpace, RingState, SPATIAL_BODIES,
 };
 use crate::dynamics::quasi_static::Rings;
+use crate::numerics::number::Dual;
 use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
@@ -77,12 +78,10 @@ impl Change {
         let Some(space) = &model.space else { return 0.0 };
         let contacts = &forces.contacts;
         let force = [&contacts.inner, &contacts.outer][side][j];
-        let (angle, by) = (contacts.contact_angle(space, j, side), self.forces.contact_angles[side][j]);
-        let growth = [&self.forces.inner, &self.forces.outer][side][j];
-        // a/r_g grows with the cube root of the force.
-        let longer = space.half_lengths[side] * libm::cbrt(force.max(0.0)) / space.grooves[side].radius;
-        let by_force = if force > 0.0 { longer / (3.0 * force) } else { 0.0 };
-        -by * angle.signum() - by_force * growth
+        let angle = contacts.contact_angle(space, j, side);
+        let by = [self.forces.contact_angles[side][j], [&self.forces.inner, &self.forces.outer][side][j]];
+        let [angle, force] = [(angle, by[0]), (force, by[1])].map(|(value, by)| Dual { value, by: [by] });
+        space.shoulder_margin::<Dual<f64, 1>>(side, angle, force).by[0]
     }
 
     /// Accelerations of rings in space and of sensors, from the changes of positions, velocities, forces and loads.

@@ -75,7 +75,7 @@ fn whole_recordings_are_accepted_however_their_times_are_printed() {
         ("decimal comma", &|t| format!("{t:.6}").replace('.', ",")),
     ];
     for rate in [10_000.0, 12_000.0, 25_600.0, 44_100.0, 48_000.0, 51_200.0] {
-        let count = (2.0 * rate) as usize;
+        let count = (0.5 * rate) as usize;
         let samples = noise(count);
         for (name, print) in print {
             let text = timed("time [s];acc\n", times(rate, count, count, 0.0), &samples, print);
@@ -84,8 +84,8 @@ fn whole_recordings_are_accepted_however_their_times_are_printed() {
             let format = TextFormat { decimal: comma.then_some(','), ..SEMICOLONS };
             let recording = read_with("csv", text.as_bytes(), None, format)
                 .unwrap_or_else(|why| panic!("{rate} Hz, {name}: {why}"));
-            // A unit of the coarsest digit over 2 s.
-            assert!((recording.rate() / rate - 1.0).abs() < 1e-5 / 2.0 + 1e-12, "{name}: {}", recording.rate());
+            // A unit of the coarsest digit over 0.5 s.
+            assert!((recording.rate() / rate - 1.0).abs() < 1e-5 / 0.5 + 1e-12, "{name}: {}", recording.rate());
             assert_eq!(recording.samples().len(), count);
         }
     }

@@ -237,8 +237,8 @@ impl FrequencyResponse {
 pub fn response(modes: &[SensorMode], frequency: f64) -> c64 {
     let s = c64::new(0.0, TAU * frequency);
     modes.iter().fold(c64::new(1.0, 0.0), |sum, mode| {
-        let [bend, rate] = columns_of(s, [TAU * mode.frequency, mode.damping_ratio]);
-        sum + bend * mode.gain + rate * mode.quadrature_gain
+        let [displacement, rate] = columns_of(s, [TAU * mode.frequency, mode.damping_ratio]);
+        sum + displacement * mode.gain + rate * mode.quadrature_gain
     })
 }
 

@@ -4,7 +4,7 @@
 //! not. Either makes passages louder and softer with the shaft's own period, which is an order of the passages that
 //! only one kind of fault has: with a shaft at 1/5.4 of the passages' frequency they are those of the inner raceway of
 //! a 6205, with one at 1/3.6 of it those of the outer one. That tells the kinds over a dozen turns, where lines of a
-//! spectrum are too wide to be told apart.
+//! spectrum are too wide to be distinguished.
 //!
 //! A bearing's elements differ, and make a pattern that repeats each time all of them have passed, whatever turns. It
 //! is taken out first. Of what is left counts the share of the variance that [`HARMONICS`] of the shaft explain, less

@@ -119,7 +119,7 @@ fn arrays_states_and_derivatives_go_into_memory_that_is_not_initialised() {
 
 #[test]
 fn a_host_calls_back_into_its_instance_while_a_step_is_under_way() {
-    /// What the callback is told of its instance, and counts.
+    /// What the callback is given of its instance, and counts.
     struct Host {
         c: Instance,
         path: u32,

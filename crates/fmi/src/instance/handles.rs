@@ -1,4 +1,4 @@
-//! Handles: which instances are alive, told without dereferencing anything that a host hands in.
+//! Handles: which instances are alive, known without dereferencing anything that a host hands in.
 //!
 //! A handle is not an address but a number made of a slot and of the slot's generation. Looking it up in a static
 //! table tells a live handle from a null, stale or invented one, and the same atomic operation marks the instance as

@@ -23,7 +23,7 @@ pub(crate) enum Mode {
     Terminated = 8,
     /// After an error.
     Error = 16,
-    /// Inside a step, while the host is told how far it has come.
+    /// Inside a step, while the host learns how far it has come.
     IntermediateUpdate = 32,
     /// Model exchange: at an event.
     Event = 64,

@@ -15,7 +15,7 @@ use crate::c_interface::FmuState;
 /// handle:  00000000 | 1 | serial number (31 bits) | index (20 bits) | 1000
 /// ```
 /// No memory of a host has an address with bit 55 set and none above it, tagged pointers included: processors keep it
-/// for their kernels' half. So a handle that is passed where its address belongs is told from an address.
+/// for their kernels' half. So a handle that is passed where its address belongs differs from an address.
 const INDEX_BITS: u32 = 20;
 const SERIAL_BITS: u32 = 31;
 const TAG: u64 = 8;

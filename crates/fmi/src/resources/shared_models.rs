@@ -159,7 +159,7 @@ mod tests {
         SharedModel::obtain(guid.to_owned(), map, set_up)
     }
 
-    /// A file with a map that has no stretches, told from others by its number.
+    /// A file with a map that has no stretches, known from others by its number.
     fn file(number: u64) -> PathBuf {
         let mut bytes = b"BRNL-MAP\x02\0\0\0".to_vec();
         bytes.extend(number.to_le_bytes());

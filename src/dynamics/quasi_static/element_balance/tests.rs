@@ -137,7 +137,7 @@ fn the_rate_of_a_path_is_what_the_balance_moves_by() {
     for case in cases() {
         let Moving { model, state, .. } = &case;
         let (rates, forces) = case.at(0.0, state);
-        // A light contact's path bends within a nanometre of its way.
+        // A light contact's path curves within a nanometre of its way.
         let h = 2e-10;
         let moved = |sign: f64| {
             let mut state = state.clone();
