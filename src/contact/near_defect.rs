@@ -129,6 +129,7 @@ impl NearLove {
         &self,
         cell: usize,
         at: [T; 3],
+        curved: bool,
         solvers: &mut LoveSolvers,
     ) -> Result<ByPlace<T>, ContactError> {
         let [u, s, place] = at.map(T::value);
@@ -137,7 +138,13 @@ impl NearLove {
             return Ok([at[0] - T::from(depth), one, zero, zero]);
         }
         let (found, by_place) = solvers.of(self).solve_across(u, s, place)?;
-        let second = &mut |[u, s, place]: [f64; 3]| solvers.of(self).second_derivatives_across(u, s, place);
+        let second = &mut |[u, s, place]: [f64; 3]| {
+            let mut second = solvers.of(self).second_derivatives_across(u, s, place)?;
+            if !curved {
+                second[1][1] = 0.0;
+            }
+            Ok(second)
+        };
         of_three(at, [found.value, found.du, found.ds, by_place], second)
     }
 
@@ -315,7 +322,7 @@ impl NearDefect {
             }
             Self::Love(near) if near.track.is_some() => {
                 let place = across - T::Plain::from(near.track.unwrap_or_default());
-                (near.solve_across(cell, [u, arc(near.bearer_radius), place], solvers)?, near.bearer_radius)
+                (near.solve_across(cell, [u, arc(near.bearer_radius), place], curved, solvers)?, near.bearer_radius)
             }
             _ => return Ok((self.approach(cell, u, angle, distance, curved, solvers)?, T::from(0.0))),
         };

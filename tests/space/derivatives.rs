@@ -3,8 +3,8 @@
 use super::*;
 use brinell::dynamics::contacts::{Forces, Shortcuts};
 use brinell::dynamics::derivatives::Jacobian;
-use brinell::scene::{ContactLaw, Damping, Sensor};
-use std::f64::consts::{PI, TAU};
+use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape, Sensor};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A bearing with both rings free, sensors along a slope and a spall under element 1, shortly after a step of its
 /// loads.
@@ -160,7 +160,16 @@ fn what_a_host_moves_changes_outputs_by_the_directional_derivative() {
 fn loads_move_the_balance_by_the_directional_derivative() {
     let scene = free_shaft(b6205(8e-6), DegreesOfFreedom::Five).shaft_load([0.0, -250.0]).axial_load(350.0);
     let scene = scene.shaft_speed(TAU * 40.0).cage(0.0, -1.3).law(ContactLaw::Hertz);
-    let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
+    loads_move_the_balance(scene.clone().build().unwrap());
+    // On a flank of the inner ring the way that a ball goes round with the cage closes its contact, the faster the
+    // farther out it is.
+    let shape = DefectShape::Spall { length: 0.5e-3, depth: 50e-6, edge_slope: FRAC_PI_2 };
+    let scene = scene.defect(Defect { on: DefectOn::Inner, angle: -1.31, shape }).shaft_speed(TAU * 400.0);
+    loads_move_the_balance(scene.damping(Damping::HuntCrossley(0.5)).build().unwrap());
+}
+
+fn loads_move_the_balance(scene: Scene) {
+    let mut simulation = Simulation::new(scene, None).unwrap();
     let names = ["shaft.y", "shaft.z", "shaft.tilt.x", "element[2].path", "element[2].axial", "element[2].force.inner"];
     let outputs = names.map(|name| simulation.reference(name).unwrap());
     for (name, value, h) in

@@ -1,11 +1,12 @@
 //! The forces of both contacts of one element, and what they exert on the rest of the bearing.
 
 use super::element_motion::ElementMotion;
-use super::kernel::{InnerGap, Meeting, film_on, normal_force};
+use super::kernel::{ContactForce, InnerGap, Meeting, Near, film_on};
 use super::shortcuts::Shortcuts;
-use crate::contact::law::CompliantContact;
+use crate::contact::error::ContactError;
+use crate::contact::law::{CompliantContact, SqueezeFilm};
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{Frame, Frames, Model, OilFilms, SMOOTH};
+use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use std::ops::{Add, Mul};
@@ -20,7 +21,8 @@ pub(super) struct Place<'a, T> {
     pub(super) u: T,
     pub(super) angle: T,
     pub(super) frames: &'a Frames<T>,
-    pub(super) films: Option<&'a OilFilms<T>>,
+    /// The film between its surfaces.
+    pub(super) film: Option<&'a SqueezeFilm<T>>,
     pub(super) curved: bool,
 }
 
@@ -28,6 +30,8 @@ pub(super) struct Place<'a, T> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InnerPlace<'a, T> {
     pub(super) at: Place<'a, T>,
+    /// What separates a raceway from the element pressed to the other (m), films included.
+    pub(super) clearance: T,
     /// Distance from the outer ring's centre (m).
     pub(super) rho: T,
     /// Rings' offset (m), and rate of q (m/s), along and across e_r.
@@ -49,8 +53,8 @@ pub(super) struct OuterPlace<'a, T> {
 pub(super) struct OnElement<T> {
     /// Force (N) along e_r, of the outer contact against it, and counter-clockwise.
     pub(super) force: [T; 2],
-    /// Equivalent approach (m).
-    pub(super) approach: T,
+    /// The same as seen from the ring, and what else is found.
+    pub(super) contact: ContactForce<T>,
     /// The frame of the body that has the defect.
     pub(super) frame: Frame,
 }
@@ -132,10 +136,10 @@ impl<T: Scalar> ElementForces<T> {
 }
 
 impl<T: Scalar + Mul<E, Output = T>, E: Scalar> ElementMotion<T, E> {
-    /// Where a contact of it is, in these cells, without oil films.
-    pub(super) fn place(&self, cells: [u32; 2]) -> Place<'_, T> {
+    /// Where a contact of it is, in these cells.
+    fn place<'a>(&'a self, cells: [u32; 2], film: Option<&'a SqueezeFilm<T>>) -> Place<'a, T> {
         let Self { element, path, angle, ref frames, curved, .. } = *self;
-        Place { element, cells, u: path, angle, frames, films: None, curved }
+        Place { element, cells, u: path, angle, frames, film, curved }
     }
 
     /// Rings' offset (m) and rate of q (m/s) along and across e_r, the element being `rho` (m) from the outer ring's
@@ -165,13 +169,15 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> ElementForces<T> {
         let films = at.oil_films();
-        let [inside, outside] = cells.map(|cells| Place { films: films.as_ref(), ..at.place(cells) });
-        let rho = self.distance(at);
+        let film = |side| film_on(films.as_ref(), side);
+        let (rho, clearance) = (self.distance(at), self.clearance_between(at.element, films.as_ref()));
         let (offset, q_rate) = at.seen_from_inner(rho);
-        let place = InnerPlace { at: inside, rho, offset, q_rate };
-        let (inner, gap) = self.inner_contact(contacts[0], &place, shortcuts);
+        let inside = at.place(cells[0], film(RacewaySide::Inner));
+        let place = InnerPlace { at: inside, clearance, rho, offset, q_rate };
+        let (inner, gap) = self.inner_contact(contacts[0], &place, shortcuts, unanswered);
+        let outside = at.place(cells[1], film(RacewaySide::Outer));
         let place = OuterPlace { at: outside, path_rate: at.path_rate, omega: at.omega };
-        let outer = self.outer_contact(contacts[1], &place, shortcuts);
+        let outer = self.outer_contact(contacts[1], &place, shortcuts, unanswered);
         let bearer = |cells: [u32; 2], frame| (cells != [SMOOTH; 2]).then_some(frame);
         ElementForces {
             at: *at,
@@ -224,52 +230,55 @@ impl Model {
         radial * T::Plain::from(self.per_mass_of(at.element)) + self.gravity.map(E::from).dot(&at.e_r) + turning
     }
 
-    /// The inner contact, and the gap it is in.
+    /// The inner contact, and the gap it is in. Where the contact law has no answer it is what `unsolved` gives.
     #[inline(always)]
     pub(super) fn inner_contact<T: Scalar>(
         &self,
         contact: &CompliantContact,
         place: &InnerPlace<T>,
         shortcuts: &mut Shortcuts,
+        unsolved: impl FnOnce(&Meeting<T>, ContactError) -> Near<T>,
     ) -> (OnElement<T>, InnerGap<T>) {
-        let InnerPlace { at: Place { element, cells, u, angle, frames, films, curved }, rho, offset, q_rate } = place;
-        let clearance = self.clearance_between(*element, *films);
-        let gap = InnerGap::of(*rho, *u, *offset, clearance, false);
-        let film = film_on(*films, RacewaySide::Inner);
-        if *cells == [SMOOTH; 2] {
-            let (force, _) = normal_force(contact, film, gap.approach, gap.closing(*q_rate));
-            let force = [force * gap.n[0], force * gap.n[1]];
-            return (OnElement { force, approach: gap.approach, frame: Frame::Housing }, gap);
+        let InnerPlace { at, clearance, rho, offset, q_rate } = place;
+        let Place { element, cells, u, angle, frames, film, curved } = *at;
+        let gap = InnerGap::of(*rho, u, *offset, *clearance, false);
+        if cells == [SMOOTH; 2] {
+            let contact = ContactForce::smooth(contact, film, gap.approach, gap.closing(*q_rate));
+            let force = gap.n.map(|part| contact.smooth * part);
+            return (OnElement { force, contact, frame: Frame::Housing }, gap);
         }
-        let (element, cells, direction) = (*element, *cells, *angle + gap.lead());
-        let (u, distance, curved) = (gap.approach, gap.distance, *curved);
+        let (u, direction, distance) = (gap.approach, angle + gap.lead(), gap.distance);
         let at = Meeting { element, cells, u, direction, distance, curved };
-        let near = self.near_or_unsolved(RacewaySide::Inner, &at, frames, shortcuts);
-        let rates = [gap.closing(*q_rate), gap.turning(*q_rate)];
-        let found = near.force(contact, film, rates, frames);
-        (OnElement { force: gap.turned(found.force), approach: found.approach, frame: near.frame }, gap)
+        let near = self.near(RacewaySide::Inner, &at, frames, shortcuts).unwrap_or_else(|cause| unsolved(&at, cause));
+        let contact = near.force(contact, film, [gap.closing(*q_rate), gap.turning(*q_rate)], frames);
+        (OnElement { force: gap.turned(contact.force), contact, frame: near.frame }, gap)
     }
 
-    /// The outer contact.
+    /// The outer contact. Where the contact law has no answer it is what `unsolved` gives.
     #[inline(always)]
     pub(super) fn outer_contact<T: Scalar>(
         &self,
         contact: &CompliantContact,
         place: &OuterPlace<T>,
         shortcuts: &mut Shortcuts,
+        unsolved: impl FnOnce(&Meeting<T>, ContactError) -> Near<T>,
     ) -> OnElement<T> {
-        let OuterPlace { at: Place { element, cells, u, angle, frames, films, curved }, path_rate, omega } = place;
-        let film = film_on(*films, RacewaySide::Outer);
-        if *cells == [SMOOTH; 2] {
-            let (force, _) = normal_force(contact, film, *u, *path_rate);
-            return OnElement { force: [force, T::from(0.0)], approach: *u, frame: Frame::Housing };
+        let OuterPlace { at, path_rate, omega } = place;
+        let Place { element, cells, u, angle, frames, film, curved } = *at;
+        if cells == [SMOOTH; 2] {
+            let contact = ContactForce::smooth(contact, film, u, *path_rate);
+            return OnElement { force: contact.force, contact, frame: Frame::Housing };
         }
-        let distance = *u + T::from(self.centre_radius(*element));
-        let (element, cells, curved) = (*element, *cells, *curved);
-        let at = Meeting { element, cells, u: *u, direction: *angle, distance, curved };
-        let near = self.near_or_unsolved(RacewaySide::Outer, &at, frames, shortcuts);
-        let rates = [*path_rate, *omega];
-        let found = near.force(contact, film, rates, frames);
-        OnElement { force: found.force, approach: found.approach, frame: near.frame }
+        let distance = u + T::from(self.centre_radius(element));
+        let at = Meeting { element, cells, u, direction: angle, distance, curved };
+        let near = self.near(RacewaySide::Outer, &at, frames, shortcuts).unwrap_or_else(|cause| unsolved(&at, cause));
+        let contact = near.force(contact, film, [*path_rate, *omega], frames);
+        OnElement { force: contact.force, contact, frame: near.frame }
     }
+}
+
+/// What stands for a contact without an answer where nobody asks why.
+#[inline(always)]
+pub(super) fn unanswered<T: Scalar>(_: &Meeting<T>, _: ContactError) -> Near<T> {
+    Near::unsolved()
 }

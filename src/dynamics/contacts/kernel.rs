@@ -143,6 +143,20 @@ impl<T: Scalar> Meeting<T> {
     }
 }
 
+impl<T: Scalar> ContactForce<T> {
+    /// Of the smooth raceway at this approach (m) that changes at this rate (m/s).
+    #[inline(always)]
+    pub(in crate::dynamics) fn smooth(
+        law: &CompliantContact,
+        film: Option<&SqueezeFilm<T>>,
+        approach: T,
+        rate: T,
+    ) -> Self {
+        let (smooth, part) = normal_force(law, film, approach, rate);
+        Self { approach, part, force: [smooth, T::from(0.0)], magnitude: smooth, smooth }
+    }
+}
+
 impl<T: Scalar> Near<T> {
     /// The smooth raceway at approach `u` (m).
     #[inline(always)]
@@ -293,12 +307,7 @@ impl Model {
 
 /// Q(Δ, Δ̇) of a contact with the film between its surfaces (N), and the contact's own part of approach and rate.
 #[inline(always)]
-pub(super) fn normal_force<T: Scalar>(
-    law: &CompliantContact,
-    film: Option<&SqueezeFilm<T>>,
-    approach: T,
-    rate: T,
-) -> (T, [T; 2]) {
+fn normal_force<T: Scalar>(law: &CompliantContact, film: Option<&SqueezeFilm<T>>, approach: T, rate: T) -> (T, [T; 2]) {
     let (part, part_rate) = law.of_contact(approach, rate);
     let force = law.law.force(part, part_rate);
     (film.map_or(force, |film| force + film.force(approach, rate)), [part, part_rate])

@@ -11,10 +11,12 @@
 //! Derivatives are those of the branch that each contact is in; at the onset of a contact there are two, and where a
 //! film's gap ceases to close. At rest all of it is elastic: G = ∂f/∂q is symmetric, and no damping enters.
 
-use super::element_forces::{ContactForces, InnerPlace, OnElement, OuterPlace, Place};
+use super::element_forces::{ContactForces, InnerPlace, OnElement, OuterPlace, Place, unanswered};
 use super::element_motion::ElementMotion;
+use super::kernel::film_on;
 use super::shortcuts::Shortcuts;
 use crate::contact::law::CompliantContact;
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Frame, Frames, Model, SMOOTH, Turn};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
@@ -69,13 +71,13 @@ pub(in crate::dynamics) struct FirstOrder<T: Scalar, const K: usize> {
 
 impl<T: Scalar, const K: usize> FirstOrder<T, K> {
     /// Of what the kernel finds, some directions left out.
-    fn of<const N: usize>(OnElement { force, approach, frame }: OnElement<Dual<T, N>>) -> Self {
+    fn of<const N: usize>(OnElement { force, contact, frame }: OnElement<Dual<T, N>>) -> Self {
         let mut by = [Vector::zeros(); K];
         for (k, by) in by.iter_mut().enumerate().take(N) {
             *by = Vector::new(force[0].by[k], force[1].by[k]);
         }
         let force = Vector::new(force[0].value, force[1].value);
-        Self { force, by, is_smooth: N < K, approach: approach.value, frame }
+        Self { force, by, is_smooth: N < K, approach: contact.approach.value, frame }
     }
 
     /// The force as what it follows from changes.
@@ -193,14 +195,16 @@ impl Model {
                     u: Dual::constant(at.path),
                     angle: Dual::constant(at.angle),
                     frames: &frames,
-                    films: films.as_ref(),
+                    film: film_on(films.as_ref(), RacewaySide::Inner),
                     curved: at.curved,
                 },
+                clearance: self.clearance_between(at.element, films.as_ref()),
                 rho: Dual::constant(rho),
                 offset: [seed(offset[0], 0), seed(offset[1], 1)],
                 q_rate: [seed(q_rate[0], 2), seed(q_rate[1], 3)],
             },
             shortcuts,
+            unanswered,
         );
         (FirstOrder::of(inner), gap.n.map(|n| n.value), gap.distance.value)
     }
@@ -223,13 +227,14 @@ impl Model {
                     u: seed(at.path, 0),
                     angle: seed(at.angle, 2),
                     frames: &frames,
-                    films: films.as_ref(),
+                    film: film_on(films.as_ref(), RacewaySide::Outer),
                     curved: at.curved,
                 },
                 path_rate: seed(at.path_rate, 1),
                 omega: seed(at.omega, 3),
             },
             shortcuts,
+            unanswered,
         ))
     }
 }

@@ -1,12 +1,13 @@
 //! Contacts that are not those of smooth rigid raceways: near defects, and on an outer raceway that yields. One at a
 //! time, before the others.
 
+use super::element_forces::{InnerPlace, OnElement, OuterPlace, Place};
 use super::forces::{Forces, NonSmooth, NonSmoothContact, UnsolvedContact};
 use super::kernel::{ContactForce, InnerGap, Meeting, Near};
 use crate::contact::error::ContactError;
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::{ElementBlock, Frame, Frames, Kinematics, Model, SMOOTH, moved};
+use crate::dynamics::parameters::{ElementBlock, Frames, Kinematics, Model, SMOOTH, moved};
 use crate::numerics::lanes::{Kernel, WIDEST, Wide};
 use crate::numerics::plane::{Vector, turned, turned_by};
 
@@ -34,22 +35,14 @@ impl Model {
         let mut sum = OuterSum { on_housing, elements, torques, contacts };
         for &NonSmooth { element: j, cells } in non_smooth_outer.iter() {
             let at @ OnPath { u, path_rate, .. } = self.on_path(j, now, state, ahead, sum.elements);
-            let [angle, speed] = self.turning(j, now, sum.elements);
-            let meeting = self.outer_meeting(angle, j, cells, u);
+            let [angle, omega] = self.turning(j, now, sum.elements);
             let [_, law] = self.own_contacts(j);
-            // Each way to the end with its own numbers: what is one or another is written to memory and read late.
-            if cells == [SMOOTH; 2] {
-                let near = Near::smooth(u);
-                let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(&at, law, &found, near.frame, meeting.distance);
-            } else {
-                *defect_lookups += 1;
-                let near = self.near(RacewaySide::Outer, &meeting, frames, shortcuts).unwrap_or_else(|cause| {
-                    self.without_answer(RacewaySide::Outer, &meeting, now, frames, cause, unsolved)
-                });
-                let found = near.force(law, film, [path_rate, speed], frames);
-                sum.add::<RECORD>(&at, law, &found, near.frame, meeting.distance);
-            }
+            *defect_lookups += u64::from(cells != [SMOOTH; 2]);
+            let place = Place { element: j, cells, u, angle, frames, film, curved: true };
+            let unsolved =
+                |at: &Meeting, cause| self.without_answer(RacewaySide::Outer, at, now, frames, cause, unsolved);
+            let found = self.outer_contact(law, &OuterPlace { at: place, path_rate, omega }, shortcuts, unsolved);
+            sum.add::<RECORD>(&at, law, &found, self.centre_radius(j) + u);
         }
         sum.on_housing
     }
@@ -99,25 +92,28 @@ impl Model {
         }
         for &NonSmooth { element: j, cells } in non_smooth_inner.iter() {
             let OnPath { e_r, u, path_rate, .. } = self.on_path(j, now, state, ahead, elements);
-            let [angle, speed] = self.turning(j, now, elements);
+            let [angle, omega] = self.turning(j, now, elements);
             *lookups += 1;
-            let gap = self.inner_gap(j, u, now.offset(), e_r, clearance);
             let [law, _] = self.own_contacts(j);
-            let at = self.inner_meeting(j, cells, &gap, angle);
-            let near = self
-                .near(RacewaySide::Inner, &at, frames, shortcuts)
-                .unwrap_or_else(|cause| self.without_answer(RacewaySide::Inner, &at, now, frames, cause, unsolved));
-            let (drift, rho) = ([now.drift().dot(&e_r), now.drift().dot(&turned(e_r))], self.centre_radius(j) + u);
-            let q_rate = InnerGap::q_rate(drift, path_rate, rho, speed);
-            let found = near.force(law, film, [gap.closing(q_rate), gap.turning(q_rate)], frames);
-            let [f_r, f_t] = gap.turned(found.force);
+            let (rho, seen) = (self.centre_radius(j) + u, |of: Vector| [of.dot(&e_r), of.dot(&turned(e_r))]);
+            let place = InnerPlace {
+                at: Place { element: j, cells, u, angle, frames, film, curved: true },
+                clearance: clearance - self.larger(j),
+                rho,
+                offset: seen(now.offset()),
+                q_rate: InnerGap::q_rate(seen(now.drift()), path_rate, rho, omega),
+            };
+            let unsolved =
+                |at: &Meeting, cause| self.without_answer(RacewaySide::Inner, at, now, frames, cause, unsolved);
+            let (found, gap) = self.inner_contact(law, &place, shortcuts, unsolved);
+            let [f_r, f_t] = found.force;
             let acceleration = &mut elements[j / WIDEST].other[j % WIDEST];
             let of_outer = if non_smooth_outer.iter().any(|other| other.element == j) { *acceleration } else { 0.0 };
             *acceleration = of_outer + f_r * self.per_mass_of(j);
             on_shaft -= e_r * f_r + turned(e_r) * f_t;
             if RECORD {
-                torques[near.frame as usize] -= found.force[1] * gap.distance;
-                contacts.push(NonSmoothContact::new(j, law, &found, [f_r, f_t]));
+                torques[found.frame as usize] -= found.contact.force[1] * gap.distance;
+                contacts.push(NonSmoothContact::new(j, law, &found));
             }
         }
         on_shaft
@@ -145,8 +141,9 @@ impl Model {
 
 impl NonSmoothContact {
     #[inline(always)]
-    fn new(element: usize, law: &CompliantContact, found: &ContactForce<f64>, [radial, tangential]: [f64; 2]) -> Self {
-        let ContactForce { approach, part, magnitude, .. } = *found;
+    fn new(element: usize, law: &CompliantContact, found: &OnElement<f64>) -> Self {
+        let OnElement { force: [radial, tangential], contact, .. } = *found;
+        let ContactForce { approach, part, magnitude, .. } = contact;
         Self { element, approach, pushing: law.law.pushing(part[0], part[1]), force: [magnitude, radial, tangential] }
     }
 }
@@ -165,8 +162,7 @@ impl OuterSum<'_> {
         &mut self,
         &OnPath { element: j, e_r, .. }: &OnPath,
         law: &CompliantContact,
-        found: &ContactForce<f64>,
-        frame: Frame,
+        found: &OnElement<f64>,
         distance: f64,
     ) {
         let [f_r, f_t] = found.force;
@@ -174,8 +170,8 @@ impl OuterSum<'_> {
         block.other[i] = -f_r * block.per_mass[i];
         self.on_housing += e_r * f_r - turned(e_r) * f_t;
         if RECORD {
-            self.torques[frame as usize] -= f_t * distance;
-            self.contacts.push(NonSmoothContact::new(j, law, found, [f_r, f_t]));
+            self.torques[found.frame as usize] -= f_t * distance;
+            self.contacts.push(NonSmoothContact::new(j, law, found));
         }
     }
 }

@@ -7,11 +7,10 @@ use super::jacobian::{Jacobian, bodies};
 use super::variation::changing_vector;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
-    BODIES, Bodies, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, RINGS, RingInSpace,
-    SPATIAL_BODIES, Space,
+    BODIES, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, RingInSpace, SPATIAL_BODIES, Space,
 };
 use crate::dynamics::quasi_static::{Rings, stacked};
-use crate::scene::{MOST_SENSORS, Motion};
+use crate::scene::Motion;
 
 impl Variation {
     /// Makes it that by time at `tau`, all that has a state standing still.
@@ -74,10 +73,8 @@ impl Model {
         // time.
         let [velocity, acceleration] = Kinematics { shaft: time.shaft, housing: time.housing, ..**now }.bodies();
         let loads = excitation.shaft_load.iter().chain(&excitation.housing_load).map(|load| load.rate_at(tau));
-        let acting = loads.zip(&on_rings).map(|(load, force)| load + force);
-        let acting = Bodies::from_iterator(acting.chain([0.0; MOST_SENSORS]));
-        let forces = self.supports.forces(&velocity, &acceleration) + acting;
-        let rates = forces.component_mul(&self.supports.inverse_masses());
+        let acting = on_rings + Rings::from_iterator(loads);
+        let rates = self.supports.accelerations(&velocity, &acceleration, &acting);
         put(&bodies::<BODIES>(self), rates.iter().copied(), by_time);
     }
 
@@ -107,19 +104,13 @@ impl Model {
                 *sum += force.by[0];
             }
         }
-        let [speeds, speed_rates] = excitation.ring_speeds(tau);
-        let (none, nothing) = ([0.0; SPATIAL_BODIES], [0.0; RINGS]);
-        let (mut moved, mut going, mut present) = (none, none, none);
+        let [mut moved, mut going] = [[0.0; SPATIAL_BODIES]; 2];
         for (ring, rates) in time.beyond.iter().enumerate() {
             moved[COORDINATES * ring..][..COORDINATES].copy_from_slice(&rates.position);
             going[COORDINATES * ring..][..COORDINATES].copy_from_slice(&rates.velocity);
-            present[COORDINATES * ring..][..COORDINATES].copy_from_slice(&rings[ring].velocity);
         }
-        let direct = space.accelerations(&moved, &going, &acting, speeds);
-        // The gyroscopic couple changes with the speed.
-        let [with, without] =
-            [speed_rates, [0.0; 2]].map(|rates| space.accelerations(&none, &present, &nothing, rates));
-        put(&bodies::<SPATIAL_BODIES>(self), (0..SPATIAL_BODIES).map(|i| direct[i] + (with[i] - without[i])), by_time);
+        let found = space.vary_accelerations((&moved, &going), &acting, &rings, excitation.ring_speeds(tau));
+        put(&bodies::<SPATIAL_BODIES>(self), found.into_iter(), by_time);
     }
 }
 

@@ -11,6 +11,6 @@ mod spatial_jacobian;
 mod spatial_variation;
 pub mod variation;
 
-pub use change::{ForceChange, Variation};
+pub use change::{ForceChange, Going, Variation};
 pub use fastest::{BodyIndices, Fastest};
 pub use jacobian::Jacobian;

@@ -5,6 +5,7 @@ use super::change::Changing;
 use crate::dynamics::contacts::{ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PLANE_RINGS, PathMotion};
 use crate::dynamics::quasi_static::{RingJacobian, add_by_offset, stacked};
+use crate::numerics::lanes::{Kernel, Wide, dispatch};
 use crate::numerics::number::Dual;
 use crate::numerics::plane::Vector;
 
@@ -35,24 +36,7 @@ impl Model {
             }
             return;
         }
-        let variable = |of: Vector, first: usize| Vector::from_fn(|axis, _| ByState::variable(of[axis], first + axis));
-        let [(x_i, v_i), (x_o, v_o)] = [(&now.shaft, 2), (&now.housing, 4)]
-            .map(|(ring, k)| (variable(ring.position, k), variable(ring.velocity, PLANE_RINGS + k)));
-        for j in 0..self.element_count {
-            let still = self.element_motion(j, PathMotion::at_rest(state[j]), &now, shortcuts);
-            let w = ByState::variable(state[self.layout.radial_velocity + j], 1);
-            let path_rate = w - (v_o.x * still.e_r.x + v_o.y * still.e_r.y);
-            let at = ElementMotion { path_rate, offset: x_o - x_i, drift: v_o - v_i, ..still.by_path() };
-            let moving = still.on_path(state[j], path_rate.value);
-            let forces = self.linearized(self.cells_of(cells, j), &moving, shortcuts).chained(&at);
-            let [shaft, housing] = forces.on_rings(&at);
-            let found = ElementToFirstOrder {
-                rates: [path_rate],
-                accelerations: [self.radial_acceleration(&at, forces.radial(), v_o)],
-                on_rings: [shaft.x, shaft.y, housing.x, housing.y],
-            };
-            jacobian.put(j, &found, &inverse_masses);
-        }
+        dispatch(Assembly { model: self, cells, state, now: &now, inverse_masses, jacobian, shortcuts });
     }
 
     /// Forces of elements in balance at every instant on the rings, by the rings' positions and velocities: their
@@ -82,5 +66,43 @@ impl Model {
             }
         }
         [by_position, by_velocity]
+    }
+}
+
+/// Elements in motion one after the other, their derivatives side by side in the machine's registers.
+struct Assembly<'a, const B: usize> {
+    model: &'a Model,
+    cells: &'a Cells,
+    state: &'a [f64],
+    now: &'a FramedKinematics,
+    inverse_masses: [f64; PLANE_RINGS],
+    jacobian: &'a mut ArrowJacobian<1, PLANE_RINGS, B>,
+    shortcuts: &'a mut Shortcuts,
+}
+
+impl<const B: usize> Kernel for Assembly<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Wide>(self, _: S) {
+        let Self { model, cells, state, now, inverse_masses, jacobian, shortcuts } = self;
+        let variable = |of: Vector, first: usize| Vector::from_fn(|axis, _| ByState::variable(of[axis], first + axis));
+        let [(x_i, v_i), (x_o, v_o)] = [(&now.shaft, 2), (&now.housing, 4)]
+            .map(|(ring, k)| (variable(ring.position, k), variable(ring.velocity, PLANE_RINGS + k)));
+        for j in 0..model.element_count {
+            let still = model.element_motion(j, PathMotion::at_rest(state[j]), now, shortcuts);
+            let w = ByState::variable(state[model.layout.radial_velocity + j], 1);
+            let path_rate = w - (v_o.x * still.e_r.x + v_o.y * still.e_r.y);
+            let at = ElementMotion { path_rate, offset: x_o - x_i, drift: v_o - v_i, ..still.by_path() };
+            let moving = still.on_path(state[j], path_rate.value);
+            let forces = model.linearized(model.cells_of(cells, j), &moving, shortcuts).chained(&at);
+            let [shaft, housing] = forces.on_rings(&at);
+            let found = ElementToFirstOrder {
+                rates: [path_rate],
+                accelerations: [model.radial_acceleration(&at, forces.radial(), v_o)],
+                on_rings: [shaft.x, shaft.y, housing.x, housing.y],
+            };
+            jacobian.put(j, &found, &inverse_masses);
+        }
     }
 }

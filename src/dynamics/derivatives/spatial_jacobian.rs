@@ -45,7 +45,7 @@ impl Model {
         let gravity: Spatial<ByState> = [self.gravity.x, self.gravity.y, space.gravity].map(ByState::constant);
         let [[_, v], [w, w_z]] = jacobian.starts;
         for j in 0..self.element_count {
-            let at = self.ball_motion(j, &now, &still, shortcuts);
+            let (at, _) = self.ball_motion(j, &now, &still, shortcuts);
             let moving = BallMotion { rings, ..at.lifted() };
             let slots = [j, v + j, w + j, w_z + j];
             let [u, v, w, w_z] = [0, 1, 2, 3].map(|k: usize| ByState::variable(state[slots[k]], k));
@@ -74,15 +74,15 @@ impl Model {
         let [mut by_position, mut by_velocity] = [[[0.0; RINGS]; RINGS]; 2];
         for j in 0..self.element_count {
             let in_cells = self.cells_of(cells, j);
-            let at = self.ball_motion(j, now, rings, shortcuts);
+            let (at, alpha) = self.ball_motion(j, now, rings, shortcuts);
             let mut there = [state[j], state[v + j]];
             // One after the other: with all at once each contact would be a quarter of a megabyte of code.
             for k in 0..RINGS {
                 let mut moving = at.lifted::<1>();
                 let rate = &mut moving.rings[k / COORDINATES].velocity[k % COORDINATES];
                 *rate = Dual::variable(rate.value, 0);
-                let still = Dual::constant(0.0);
-                let found = self.ball_in_balance(space, in_cells, there, (&moving, still), shortcuts);
+                let alpha = Dual::constant(alpha);
+                let found = self.ball_in_balance(space, in_cells, there, (&moving, alpha), shortcuts);
                 there = found.place.map(|number| number.value);
                 for (row, force) in by_velocity.iter_mut().zip(found.forces.on_rings().as_flattened()) {
                     row[k] += force.by[0];

@@ -45,9 +45,8 @@ impl Model {
         by: &Variation,
         shortcuts: &mut Shortcuts,
     ) -> (BallMotion<Changing>, Changing) {
-        let at = self.ball_motion(j, now, rings, shortcuts);
+        let (at, alpha) = self.ball_motion(j, now, rings, shortcuts);
         let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
-        let [_, alpha] = lead.speed(&now.cage);
         let going = Going::of(lead, &now.cage, by);
         let e_t = turned(Vector::from(at.e_r));
         let frame = |i: usize| {

@@ -138,10 +138,11 @@ impl Model {
             sums.iter().enumerate().fold(0.0f64, |most, (i, load)| most.max(load.abs() / space.length(i)));
         let (mut contact_sum, mut rounding) = (0.0, 0.0);
         for (j, place) in balls.iter_mut().enumerate() {
-            let at = BallMotion { tried: true, ..self.ball_motion(j, &given.still, &rings, shortcuts) };
+            let (at, alpha) = self.ball_motion(j, &given.still, &rings, shortcuts);
+            let at = BallMotion { tried: true, ..at };
             let cells = self.cells_of(given.cells, j);
             let (there, forces) = if self.elements_in_balance() {
-                let found = self.ball_in_balance(space, cells, *place, (&at, 0.0), shortcuts);
+                let found = self.ball_in_balance(space, cells, *place, (&at, alpha), shortcuts);
                 (found.place, found.forces)
             } else {
                 let found = self.balanced_ball(space, cells, *place, &at, at.omega, shortcuts);
@@ -177,7 +178,8 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> DVector<f64> {
         let (space, rings) = (given.space, given.rings_at(x));
-        let tangent = self.spatial_tangent::<{ 2 + RINGS }>(space, &given.still, &rings, given.cells, balls, shortcuts);
+        let (cells, balls) = (given.cells, (balls, true));
+        let tangent = self.spatial_tangent::<{ 2 + RINGS }>(space, &given.still, &rings, cells, balls, shortcuts);
         let longest = longest_step(iteration);
         let (turning, loose) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);
         let count = given.free.len();
@@ -224,7 +226,7 @@ impl Model {
     ) -> Result<(), EquilibriumError> {
         let rings = given.rings_at(x);
         for (j, place) in balls.iter_mut().enumerate() {
-            let at = self.ball_motion(j, &given.still, &rings, shortcuts);
+            let (at, _) = self.ball_motion(j, &given.still, &rings, shortcuts);
             let (cells, omega) = (self.cells_of(given.cells, j), at.omega);
             let at = if self.elements_in_balance() { at.standing() } else { at };
             let found = self.balanced_ball(given.space, cells, *place, &at, omega, shortcuts);
@@ -260,7 +262,7 @@ impl Model {
         let housing = &rings[1];
         for (j, place) in balls.iter().enumerate() {
             // At rest against the outer ring: u' = 0 and v' = 0.
-            let e_r = self.ball_motion(j, &given.still, &rings, &mut Shortcuts::default()).e_r;
+            let e_r = self.ball_motion(j, &given.still, &rings, &mut Shortcuts::default()).0.e_r;
             (state[j], state[v + j]) = (place[0], place[1]);
             state[layout.radial_velocity + j] = housing.velocity[0] * e_r[0] + housing.velocity[1] * e_r[1];
             state[w_z + j] = housing.velocity[2];

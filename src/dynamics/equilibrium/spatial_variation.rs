@@ -42,7 +42,7 @@ impl Model {
         let mut answers = Vec::with_capacity(self.element_count);
         for j in 0..self.element_count {
             let (in_cells, place) = (self.cells_of(cells, j), [state[j], state[v + j]]);
-            let at = self.ball_motion(j, &now, &rings, shortcuts);
+            let (at, _) = self.ball_motion(j, &now, &rings, shortcuts);
             let tangent = self.ball_tangent::<_, { 2 + RINGS }>(space, in_cells, place, &at, at.omega, shortcuts);
             let (changing, _) = self.changing_ball_motion(j, &now, &rings, by, shortcuts);
             let place = place.map(Dual::<f64, 1>::from);
@@ -61,7 +61,7 @@ impl Model {
         for (j, (direct, tangent)) in answers.into_iter().enumerate() {
             let follows = |row: usize| tangent.ball[row].iter().zip(motion).map(|(by, x)| by * x).sum::<f64>();
             (by.path[j], by.axial[j]) = (direct[0] + follows(0), direct[1] + follows(1));
-            let e_r = self.ball_motion(j, &now, &rings, shortcuts).e_r;
+            let e_r = self.ball_motion(j, &now, &rings, shortcuts).0.e_r;
             by.radial_velocity[j] = by.housing.velocity.x * e_r[0] + by.housing.velocity.y * e_r[1];
             by.axial_velocity[j] = by.beyond[1].velocity[2];
         }

@@ -74,10 +74,7 @@ impl Model {
             .map(|j| {
                 let (block, i) = (&forces.elements[j / WIDEST], j % WIDEST);
                 let e_t = turned(turned_by(cage.direction, block.sin[i], block.cos[i]));
-                let turning = [
-                    cage.speed * block.pace[i],
-                    cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i],
-                ];
+                let turning = block.turning(i, &cage);
                 let around = contacts.inner[j] * contacts.normal_tangential[j] + contacts.outer_tangential[j];
                 self.torque_on_cage(j, e_t, turning, [paths[j], contacts.path_rate[j]], around, acceleration)
             })

@@ -1,5 +1,6 @@
 //! What differs from element to element, eight of them at a time.
 
+use super::kinematics::CageState;
 use crate::contact::law::{CompliantContact, ForceLaw, smooth_laws};
 use crate::numerics::lanes::{WIDEST, padded};
 use crate::numerics::sin_cos;
@@ -33,6 +34,16 @@ pub(in crate::dynamics) struct ElementBlock {
     pub(in crate::dynamics) pace: [f64; WIDEST],
     /// How that changes with the nominal cage's angle (1/rad).
     pub(in crate::dynamics) pace_by_angle: [f64; WIDEST],
+}
+
+impl ElementBlock {
+    /// Speed (rad/s) and acceleration (rad/s²) of an element about the outer ring's centre
+    /// ([`Lead::speed`](super::irregularity::Lead::speed)).
+    #[inline(always)]
+    pub(in crate::dynamics) fn turning(&self, i: usize, cage: &CageState) -> [f64; 2] {
+        let alpha = cage.acceleration * self.pace[i] + cage.speed * cage.speed * self.pace_by_angle[i];
+        [cage.speed * self.pace[i], alpha]
+    }
 }
 
 /// One element by itself: how large it is, and its contacts with the inner and the outer raceway.

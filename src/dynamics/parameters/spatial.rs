@@ -207,6 +207,24 @@ impl Space {
         std::array::from_fn(|i| forces[i] * self.bodies[i].inverse_inertia)
     }
 
+    /// Change of the same as all of it changes while the rings move as they are; the speeds and how they change. The
+    /// gyroscopic couple changes with the speed.
+    pub fn vary_accelerations(
+        &self,
+        (x, v): (&SpatialBodies, &SpatialBodies),
+        acting: &[f64; RINGS],
+        rings: &[RingInSpace; 2],
+        [speeds, changes]: [[f64; 2]; 2],
+    ) -> SpatialBodies {
+        let (none, mut present) = ([0.0; SPATIAL_BODIES], [0.0; SPATIAL_BODIES]);
+        for (of, ring) in present.chunks_exact_mut(COORDINATES).zip(rings) {
+            of.copy_from_slice(&ring.velocity);
+        }
+        let found = self.accelerations(x, v, acting, speeds);
+        let [with, without] = [changes, [0.0; 2]].map(|by| self.accelerations(&none, &present, &[0.0; RINGS], by));
+        std::array::from_fn(|i| found[i] + (with[i] - without[i]))
+    }
+
     /// Where a sensor is (m) that moves along with an outer ring at `housing`.
     pub(in crate::dynamics) fn along_sensor(&self, sensor: usize, housing: &[f64; COORDINATES]) -> f64 {
         (0..3).map(|i| housing[i] * self.sensors[sensor][i]).sum()

@@ -8,7 +8,9 @@
 //! the grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth,
 //! of the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
 //! searches for a zero of a falling function, one within the other, find it from anywhere. A ball that nothing touches
-//! or moves rests against the outer groove without force where it is.
+//! or moves rests against the outer groove without force where it is. One that nothing touches and whose weight and
+//! centrifugal force cancel within its clearance, to 1e-3 of either, has two balances: on either groove, under no force
+//! to speak of.
 //!
 //! With the ball in balance the forces f on the rings by the rings' positions x are
 //! ```text
@@ -79,9 +81,9 @@ impl Model {
     /// R_r and R_z (N) of a ball on which the contacts exert these forces along e_r, e_t and z.
     fn left_on_ball<T: Scalar>(&self, space: &Space, ball: &Ball<T>, omega: T, [f_r, _, f_z]: Spatial<T>) -> [T; 2] {
         let mass = T::Plain::from(self.element_mass);
-        let [g_x, g_y, g_z] = [self.gravity.x, self.gravity.y, space.gravity].map(T::Plain::from);
+        let [g_x, g_y] = [self.gravity.x, self.gravity.y].map(T::Plain::from);
         let body = ball.e_r[0] * g_x + ball.e_r[1] * g_y + ball.rho * omega * omega;
-        [f_r + body * mass, f_z + T::from(1.0) * g_z * mass]
+        [f_r + body * mass, f_z + T::from(space.gravity * self.element_mass)]
     }
 
     /// Ball `at` in balance, looked for from `guess` on; it feels the centrifugal force of `omega` (rad/s).
@@ -156,7 +158,7 @@ impl Model {
         omega: T,
         shortcuts: &mut Shortcuts,
     ) -> BallTangent<T> {
-        let (residual, rings) = if T::CHANGES || space.couple_shares != [0.0; 2] {
+        let (residual, rings) = if T::CHANGES || space.couple_shares != [0.0; 2] || !at.stands() {
             self.one_by_one_to_first_order(space, cells, place, (at, omega), shortcuts)
         } else {
             let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
@@ -189,8 +191,8 @@ impl Model {
     }
 
     /// R_r and R_z and the forces on the rings with derivatives by u, v and the first coordinates of the rings, one
-    /// coordinate after the other: where the contacts hold the couple of the spin, or all of it has derivatives itself,
-    /// each contact would be a quarter of a megabyte of code with all of them at once.
+    /// coordinate after the other: where the contacts hold the couple of the spin, something moves, or all of it has
+    /// derivatives itself, each contact would be a quarter of a megabyte of code with all of them at once.
     fn one_by_one_to_first_order<T: Scalar, const K: usize>(
         &self,
         space: &Space,
@@ -220,14 +222,18 @@ impl Model {
 
 impl<T: Scalar> BallTangent<T> {
     /// Where u and v go until they balance a change of R_r and R_z; nowhere if nothing holds the ball.
-    pub(in crate::dynamics) fn answer(&self, [r, z]: [T; 2]) -> [T; 2] {
-        let [[a, b], [c, d]] = self.residual_by_ball;
-        let determinant = a * d - b * c;
-        if determinant.value() == 0.0 {
-            return [T::from(0.0); 2];
-        }
-        [(b * z - d * r) / determinant, (c * r - a * z) / determinant]
+    pub(in crate::dynamics) fn answer(&self, residual: [T; 2]) -> [T; 2] {
+        solved(self.residual_by_ball, residual).map(|place| -place)
     }
+}
+
+/// M⁻¹ x of two by two; 0 of a matrix that holds nothing.
+pub(super) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
+    let determinant = a * d - b * c;
+    if determinant.value() == 0.0 {
+        return [T::from(0.0); 2];
+    }
+    [(d * x - b * y) / determinant, (a * y - c * x) / determinant]
 }
 
 /// Zero of a falling function, of which `of` gives value and slope, by Newton's method within the bracket that the

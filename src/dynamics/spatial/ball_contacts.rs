@@ -98,6 +98,12 @@ impl<T: Scalar> BallMotion<T> {
         Self { omega: none, rings, frames: self.frames.at_rest(), ..*self }
     }
 
+    /// Whether nothing moves, so that no velocity depends on where it is.
+    pub(in crate::dynamics) fn stands(&self) -> bool {
+        let none = |rate: T| rate.value() == 0.0;
+        none(self.omega) && self.rings.iter().flat_map(|ring| ring.velocity).all(none)
+    }
+
     /// The ball at u, v, w and w_z.
     // A function for each kind of number, once: with derivatives it is long.
     #[inline(never)]

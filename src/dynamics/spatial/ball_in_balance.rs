@@ -9,6 +9,7 @@
 //! d on the ball, the ball lags by b₁ = −R_b⁻¹ d, which hands both contacts the rest; no contact is made to pull by it.
 
 use super::ball::OnBall;
+use super::ball_balance::solved;
 use super::ball_contacts::{BallContact, BallForces, BallMotion};
 use crate::contact::groove::{Spatial, dot};
 use crate::dynamics::contacts::{Forces, Shortcuts};
@@ -32,15 +33,6 @@ pub(in crate::dynamics) struct BallInBalance<T: Scalar = f64> {
     pub(in crate::dynamics) place: [T; 2],
     pub(in crate::dynamics) rates: [T; 2],
     pub(in crate::dynamics) forces: BallForces<T>,
-}
-
-/// M⁻¹ x of two by two; 0 of a matrix that holds nothing.
-fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
-    let determinant = a * d - b * c;
-    if determinant.value() == 0.0 {
-        return [T::from(0.0); 2];
-    }
-    [(d * x - b * y) / determinant, (a * y - c * x) / determinant]
 }
 
 impl<T: Scalar> BallMotion<T> {

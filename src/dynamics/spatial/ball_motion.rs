@@ -18,12 +18,12 @@ impl Model {
         forces: &Forces,
     ) -> (BallMotion, f64) {
         let (block, i, cage) = (&forces.elements[j / WIDEST], j % WIDEST, stage.cage);
-        let alpha = cage.acceleration * block.pace[i] + cage.speed * cage.speed * block.pace_by_angle[i];
+        let [omega, alpha] = block.turning(i, cage);
         let at = BallMotion {
             element: j,
             e_r: turned_by(cage.direction, block.sin[i], block.cos[i]).into(),
             angle: cage.angle + self.element_offset(j) + block.lead[i],
-            omega: cage.speed * block.pace[i],
+            omega,
             rings: *rings,
             frames: forces.frames,
             curved: true,
@@ -32,25 +32,27 @@ impl Model {
         (at, alpha)
     }
 
-    /// Ball `j` at an instant, all else as `now` says.
+    /// Ball `j` at an instant, all else as `now` says, and its acceleration about the outer ring's centre (rad/s²).
     pub(in crate::dynamics) fn ball_motion(
         &self,
         j: usize,
         now: &FramedKinematics,
         rings: &[RingInSpace; 2],
         shortcuts: &mut Shortcuts,
-    ) -> BallMotion {
+    ) -> (BallMotion, f64) {
         let lead = self.lead_with(j, now.cage_angle(), &mut shortcuts.leads);
-        BallMotion {
+        let [omega, alpha] = lead.speed(&now.cage);
+        let at = BallMotion {
             element: j,
             e_r: self.direction_with(j, &now.cage, &lead).into(),
             angle: now.cage.angle + self.element_offset(j) + lead.angle,
-            omega: lead.speed(&now.cage)[0],
+            omega,
             rings: *rings,
             frames: now.frames,
             curved: true,
             tried: false,
-        }
+        };
+        (at, alpha)
     }
 
     /// Keeps why a contact near a defect has no answer, if it is the cause.

@@ -6,20 +6,22 @@ use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinemati
 
 impl Model {
     /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
-    /// balance at `balls`, u and v of each; elastic, everything standing where it is, contacts as
-    /// [tried](BallMotion::tried). By the first coordinates of the rings alone, two fewer than `K`.
+    /// balance at `balls`, u and v of each; elastic, everything standing where it is. If it is for a search, without
+    /// curvatures along surfaces and with contacts as [tried](BallMotion::tried). By the first coordinates of the rings
+    /// alone, two fewer than `K`.
     pub(in crate::dynamics) fn spatial_tangent<const K: usize>(
         &self,
         space: &Space,
         now: &FramedKinematics,
         rings: &[RingInSpace; 2],
         cells: &Cells,
-        balls: &[[f64; 2]],
+        (balls, searched): (&[[f64; 2]], bool),
         shortcuts: &mut Shortcuts,
     ) -> [[f64; RINGS]; RINGS] {
         let mut sum = [[0.0; RINGS]; RINGS];
         for (j, &place) in balls.iter().enumerate() {
-            let at = BallMotion { tried: true, ..self.ball_motion(j, now, rings, shortcuts) };
+            let (at, _) = self.ball_motion(j, now, rings, shortcuts);
+            let at = BallMotion { curved: !searched, tried: searched, ..at };
             let (omega, in_cells) = (at.omega, self.cells_of(cells, j));
             let found = self.ball_tangent::<f64, K>(space, in_cells, place, &at.standing(), omega, shortcuts);
             for (row, by) in sum.iter_mut().zip(found.by_position) {
@@ -42,7 +44,8 @@ impl Model {
         let rings = self.rings_in_space(excitation, 0.0, state, None);
         let now = self.kinematics(excitation, 0.0, state);
         let balls = self.balls_of(contacts.paths(self, state));
-        let tangent = self.spatial_tangent::<{ 2 + COORDINATES }>(space, &now, &rings, cells, &balls, shortcuts);
+        let tangent =
+            self.spatial_tangent::<{ 2 + COORDINATES }>(space, &now, &rings, cells, (&balls, false), shortcuts);
         Some(std::array::from_fn(|row| std::array::from_fn(|column| -tangent[row][column])))
     }
 

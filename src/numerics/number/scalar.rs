@@ -23,7 +23,7 @@ pub trait Scalar:
     const DEPTH: usize;
 
     /// Whether it has derivatives.
-    const CHANGES: bool;
+    const CHANGES: bool = Self::DEPTH > 0;
 
     /// The number at which `residual` vanishes, known to be `root` without its derivatives; `slope` is the residual's
     /// there. Each of Newton's steps gives one more order of derivatives, exactly.
@@ -62,7 +62,6 @@ pub trait Scalar:
 
 impl Scalar for f64 {
     const DEPTH: usize = 0;
-    const CHANGES: bool = false;
 
     #[inline(always)]
     fn value(self) -> f64 {
@@ -107,7 +106,6 @@ impl<N: Scalar, const K: usize> From<f64> for Dual<N, K> {
 
 impl<N: Scalar, const K: usize> Scalar for Dual<N, K> {
     const DEPTH: usize = N::DEPTH + 1;
-    const CHANGES: bool = true;
 
     #[inline(always)]
     fn value(self) -> f64 {

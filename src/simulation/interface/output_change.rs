@@ -93,7 +93,6 @@ impl Change {
     ) {
         let Some(space) = &model.space else { return };
         let (mut x, mut v, mut acting) = ([0.0; SPATIAL_BODIES], [0.0; SPATIAL_BODIES], [0.0; RINGS]);
-        let mut present = [0.0; SPATIAL_BODIES];
         let planes = [
             (&self.variation.shaft, self.forces.shaft, [self.loads[0], self.loads[1]]),
             (&self.variation.housing, self.forces.housing, [self.loads[2], self.loads[3]]),
@@ -101,7 +100,6 @@ impl Change {
         for (ring, (plane, force, load)) in planes.into_iter().enumerate() {
             for k in 0..COORDINATES {
                 let i = COORDINATES * ring + k;
-                present[i] = rings[ring].velocity[k];
                 (x[i], v[i], acting[i]) = if k < 2 {
                     (plane.position[k], plane.velocity[k], force[k] + load[k])
                 } else {
@@ -116,18 +114,14 @@ impl Change {
         }
         let [speeds, _] = excitation.ring_speeds(0.0);
         let by_speed = [Frame::Shaft, Frame::Housing].map(|frame| self.variation.frames[frame as usize][1]);
-        let (none, nothing) = ([0.0; SPATIAL_BODIES], [0.0; RINGS]);
-        let found = space.accelerations(&x, &v, &acting, speeds);
-        // The gyroscopic couple changes with the speed.
-        let [with, without] = [by_speed, [0.0; 2]].map(|speeds| space.accelerations(&none, &present, &nothing, speeds));
+        let found = space.vary_accelerations((&x, &v), &acting, rings, [speeds, by_speed]);
         for i in 0..RINGS {
             let (ring, k) = (i / COORDINATES, i % COORDINATES);
-            let sum = found[i] + (with[i] - without[i]);
             // What the host prescribes has been set before.
             if k < 2 {
-                self.accelerations[ring][k] += sum;
+                self.accelerations[ring][k] += found[i];
             } else {
-                self.accelerations_beyond[ring][k - 2] += sum;
+                self.accelerations_beyond[ring][k - 2] += found[i];
             }
         }
         self.sensor_accelerations.copy_from_slice(&found[RINGS..]);

@@ -317,7 +317,7 @@ impl Simulation {
             return Ok(());
         }
         let Self { setup, interface, run, present, .. } = self;
-        run.model = setup.model(&interface.quantities, &run.state.reals, &run.state.integers)?;
+        run.model = Arc::new(setup.model(&interface.quantities, &run.state.reals, &run.state.integers)?);
         let rate = setup::parameter(&interface.quantities, &run.state.reals, Parameter::RecorderRate);
         if let Some((recorder, rate)) = run.recorder.as_mut().zip(rate) {
             recorder.set_rate(rate, &run.state.progress.due);

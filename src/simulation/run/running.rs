@@ -11,6 +11,7 @@ use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution};
 use crate::simulation::recorder::{Due, Recorder};
 use crate::simulation::setup;
 use crate::simulation::step_error::StepError;
+use std::sync::Arc;
 
 /// Speeds of both rings, and position, velocity and acceleration of each along its five coordinates.
 const MOST_INPUTS: usize = 2 + 2 * 15;
@@ -25,7 +26,8 @@ pub(in crate::simulation) struct InputValues {
 /// What runs: the model, its state, and what steps it.
 #[derive(Debug, Clone)]
 pub(in crate::simulation) struct Run {
-    pub(in crate::simulation) model: Model,
+    /// Shared by all copies of a simulation.
+    pub(in crate::simulation) model: Arc<Model>,
     pub(in crate::simulation) workspace: Workspace,
     /// `None` where the scene has no recorder.
     pub(in crate::simulation) recorder: Option<Recorder>,
@@ -51,7 +53,7 @@ impl Run {
             history: History::none(interface.inputs.count),
             first: FirstInputs::none(interface.inputs.count),
         };
-        Self { workspace: Workspace::new(&model), model, recorder, method: Method::Automatic, state }
+        Self { workspace: Workspace::new(&model), model: Arc::new(model), recorder, method: Method::Automatic, state }
     }
 
     /// Length of the recorder's rows under way.

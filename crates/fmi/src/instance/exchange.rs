@@ -1,4 +1,4 @@
-//! Model Exchange: what both versions' functions for it do with an instance.
+//! Values, derivatives and Model Exchange: what both versions' functions for them do with an instance.
 
 use super::failure::Failure;
 use super::life::Instance;

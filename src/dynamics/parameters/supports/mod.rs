@@ -22,6 +22,7 @@ use super::kinematics::{Kinematics, RingState};
 use crate::numerics::lanes::{Lanes, QUAD, Wide};
 use crate::numerics::plane::Vector;
 use crate::scene::{MOST_SENSORS, Motion, Ring, Scene};
+use nalgebra::Vector4;
 use std::sync::Arc;
 
 /// Coordinates of both rings in the plane: inner ring x, y, outer ring x, y.
@@ -145,6 +146,15 @@ impl Supports {
             forces[4 + k] = -force;
         }
         forces
+    }
+
+    /// Accelerations (m/s²) of bodies at these displacements (m) and velocities (m/s), `acting` on the rings (N) beside
+    /// their supports. Linear, so of changes too.
+    pub fn accelerations(&self, x: &Bodies, v: &Bodies, acting: &Vector4<f64>) -> Bodies {
+        let mut forces = self.forces(x, v);
+        let mut on_rings = forces.fixed_rows_mut::<4>(0);
+        on_rings += acting;
+        forces.component_mul(&self.inverse_masses())
     }
 
     /// Accelerations of the bodies by their positions (1/s²) and by their velocities (1/s).

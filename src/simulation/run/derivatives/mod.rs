@@ -19,7 +19,8 @@ mod by_parameter;
 
 use super::life::UpToDate;
 use super::running::Present;
-use crate::dynamics::parameters::{Excitation, Frame, Kinematics, Lead};
+use crate::dynamics::derivatives::Going;
+use crate::dynamics::parameters::{Excitation, Frame, Kinematics};
 use crate::dynamics::quasi_static::stacked;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::{
@@ -269,12 +270,8 @@ impl Simulation {
             for (k, &[of_x, of_v]) in change.sensors.iter().enumerate() {
                 (x[4 + k], v[4 + k]) = (of_x, of_v);
             }
-            let (supports, [shaft, housing]) = (&self.run.model.supports, [forces.shaft, forces.housing]);
-            let contacts = stacked(shaft, housing) + change.loads;
-            let mut all = supports.forces(&x, &v);
-            let mut rings = all.fixed_rows_mut::<4>(0);
-            rings += contacts;
-            let accelerations = all.component_mul(&supports.inverse_masses());
+            let acting = stacked(forces.shaft, forces.housing) + change.loads;
+            let accelerations = self.run.model.supports.accelerations(&x, &v, &acting);
             for (i, acceleration) in accelerations.iter().enumerate().take(4) {
                 // What the host prescribes has been set before.
                 change.accelerations[i / 2][i % 2] += acceleration;
@@ -309,16 +306,14 @@ impl Simulation {
 
     /// Change of the cage's own angle and speed.
     fn cage_change(&self) -> [f64; 2] {
-        let variation = &self.change.variation;
-        let Lead { rate, second, .. } = self.run.model.cage_lead(self.run.state.cage);
-        let (share, cage_speed) = (1.0 + rate, self.excitation(false).cage.0[1]);
-        let speed = share * variation.cage_speed + second * cage_speed * variation.cage_angle;
-        [share * variation.cage_angle, speed]
+        let (lead, cage) = (self.run.model.cage_lead(self.run.state.cage), self.excitation(false).cage_at(0.0));
+        let Going { turn, speed, .. } = Going::of(lead, &cage, &self.change.variation);
+        [turn, speed]
     }
 
     /// Change of the angle of element `j`.
     fn element_turn(&self, j: usize) -> f64 {
-        (1.0 + self.run.model.lead(j, self.run.state.cage).rate) * self.change.variation.cage_angle
+        Going::turn(self.run.model.lead(j, self.run.state.cage), &self.change.variation)
     }
 
     /// What the change makes of one output.
