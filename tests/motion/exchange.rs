@@ -143,7 +143,7 @@ fn twenty_milliseconds_of_a_spalled_bearing_integrated_by_somebody_else_are_the_
     let (worst, host) = compared(&scene, &["shaft.x", "shaft.y", "housing.y", "element[1].path"], 20e-3, 5e-8);
     assert!(worst < 1e-8, "{worst:e}");
     assert!(host.cells_entered >= 4, "{} cells entered", host.cells_entered);
-    assert!(host.events > 0, "no contact began or ended");
+    assert!(host.events > host.cells_entered, "no contact began or ended");
 }
 
 #[test]

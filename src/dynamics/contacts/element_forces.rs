@@ -243,7 +243,7 @@ impl Model {
         let Place { element, cells, u, angle, frames, film, curved } = *at;
         let gap = InnerGap::of(*rho, u, *offset, *clearance, false);
         if cells == [SMOOTH; 2] {
-            let contact = ContactForce::smooth(contact, film, gap.approach, gap.closing(*q_rate));
+            let contact = ContactForce::on_smooth(contact, film, gap.approach, gap.closing(*q_rate));
             let force = gap.n.map(|part| contact.smooth * part);
             return (OnElement { force, contact, frame: Frame::Housing }, gap);
         }
@@ -266,7 +266,7 @@ impl Model {
         let OuterPlace { at, path_rate, omega } = place;
         let Place { element, cells, u, angle, frames, film, curved } = *at;
         if cells == [SMOOTH; 2] {
-            let contact = ContactForce::smooth(contact, film, u, *path_rate);
+            let contact = ContactForce::on_smooth(contact, film, u, *path_rate);
             return OnElement { force: contact.force, contact, frame: Frame::Housing };
         }
         let distance = u + T::from(self.centre_radius(element));

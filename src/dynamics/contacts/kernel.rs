@@ -146,12 +146,7 @@ impl<T: Scalar> Meeting<T> {
 impl<T: Scalar> ContactForce<T> {
     /// Of the smooth raceway at this approach (m) that changes at this rate (m/s).
     #[inline(always)]
-    pub(in crate::dynamics) fn smooth(
-        law: &CompliantContact,
-        film: Option<&SqueezeFilm<T>>,
-        approach: T,
-        rate: T,
-    ) -> Self {
+    pub(super) fn on_smooth(law: &CompliantContact, film: Option<&SqueezeFilm<T>>, approach: T, rate: T) -> Self {
         let (smooth, part) = normal_force(law, film, approach, rate);
         Self { approach, part, force: [smooth, T::from(0.0)], magnitude: smooth, smooth }
     }
@@ -315,6 +310,6 @@ fn normal_force<T: Scalar>(law: &CompliantContact, film: Option<&SqueezeFilm<T>>
 
 /// The film of one raceway.
 #[inline(always)]
-pub(in crate::dynamics) fn film_on<T>(films: Option<&OilFilms<T>>, side: RacewaySide) -> Option<&SqueezeFilm<T>> {
+pub(super) fn film_on<T>(films: Option<&OilFilms<T>>, side: RacewaySide) -> Option<&SqueezeFilm<T>> {
     films.map(|films| &films.squeeze[side as usize])
 }

@@ -117,27 +117,27 @@ impl ForceChange {
 pub(in crate::dynamics) type Changing = Dual<f64, 1>;
 
 /// How an element, or the cage itself, goes round with the nominal cage, to first order.
-pub struct Going {
+pub(crate) struct Going {
     /// Change of its angle (rad).
-    pub turn: f64,
+    pub(crate) turn: f64,
     /// Change of its speed (rad/s).
-    pub speed: f64,
+    pub(crate) speed: f64,
     /// Change of its acceleration (rad/s²).
     pub(super) alpha: f64,
 }
 
 impl Going {
     /// Change of the angle alone (rad).
-    pub fn turn(lead: Lead, by: &Variation) -> f64 {
+    pub(crate) fn turned(lead: Lead, by: &Variation) -> f64 {
         (1.0 + lead.rate) * by.cage_angle
     }
 
     /// Of an element that is so far ahead as the nominal cage's angle and speed change.
-    pub fn of(lead: Lead, cage: &CageState, by: &Variation) -> Self {
+    pub(crate) fn of(lead: Lead, cage: &CageState, by: &Variation) -> Self {
         let Lead { rate, second, third, .. } = lead;
         let (omega, share) = (cage.speed, 1.0 + rate);
         Self {
-            turn: Self::turn(lead, by),
+            turn: Self::turned(lead, by),
             speed: share * by.cage_speed + second * omega * by.cage_angle,
             alpha: (cage.acceleration * second + omega * omega * third) * by.cage_angle
                 + 2.0 * omega * second * by.cage_speed,

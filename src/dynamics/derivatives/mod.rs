@@ -11,6 +11,7 @@ mod spatial_jacobian;
 mod spatial_variation;
 pub mod variation;
 
-pub use change::{ForceChange, Going, Variation};
+pub(crate) use change::Going;
+pub use change::{ForceChange, Variation};
 pub use fastest::{BodyIndices, Fastest};
 pub use jacobian::Jacobian;

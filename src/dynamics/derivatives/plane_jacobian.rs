@@ -69,7 +69,7 @@ impl Model {
     }
 }
 
-/// Elements in motion one after the other, their derivatives side by side in the machine's registers.
+/// Elements in motion one after the other: the chain rule and the arrow in the machine's registers.
 struct Assembly<'a, const B: usize> {
     model: &'a Model,
     cells: &'a Cells,

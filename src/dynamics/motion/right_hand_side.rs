@@ -47,6 +47,7 @@ impl Model {
         derivative: &mut [f64],
         forces: &mut Forces,
     ) {
+        debug_assert!(!RECORD || stage.ahead.is_none());
         let model = self;
         // Each written out: one that is made elsewhere and moved here is written in parts and read at once.
         if self.needs_general_form() {

@@ -209,7 +209,7 @@ impl Space {
 
     /// Change of the same as all of it changes while the rings move as they are; the speeds and how they change. The
     /// gyroscopic couple changes with the speed.
-    pub fn vary_accelerations(
+    pub(crate) fn vary_accelerations(
         &self,
         (x, v): (&SpatialBodies, &SpatialBodies),
         acting: &[f64; RINGS],

@@ -4,13 +4,13 @@
 //! ```text
 //! R_r = F·e_r + m (g·e_r + ρ ω²) = 0     R_z = F_z + m g_z = 0
 //! ```
-//! *There is one balance.* At rest both contacts' energies are convex in (u, v), as a distance from a point is; that
-//! the grooves' centres form circles and that the centrifugal force grows outwards changes that by d/R_o, a hundredth,
-//! of the weakest of it. R_r therefore falls with u at each v, and along the u where it vanishes R_z falls with v: two
-//! searches for a zero of a falling function, one within the other, find it from anywhere. A ball that nothing touches
-//! or moves rests against the outer groove without force where it is. One that nothing touches and whose weight and
-//! centrifugal force cancel within its clearance, to 1e-3 of either, has two balances: on either groove, under no force
-//! to speak of.
+//! *There is one balance* of a ball that touches a groove. At rest both contacts' energies are convex in (u, v), as a
+//! distance from a point is; that the grooves' centres form circles and that the centrifugal force grows outwards
+//! changes that by d/R_o, a hundredth, of the weakest of it. R_r therefore falls with u at each v, and along the u
+//! where it vanishes R_z falls with v: two searches for a zero of a falling function, one within the other, find it
+//! from anywhere. A ball that nothing touches or moves rests against the outer groove without force where it is. One
+//! that nothing touches and whose weight and centrifugal force cancel within its clearance, to 1e-3 of either, has two
+//! balances: on either groove, under no force to speak of.
 //!
 //! With the ball in balance the forces f on the rings by the rings' positions x are
 //! ```text
@@ -18,7 +18,7 @@
 //! ```
 
 use super::ball::Ball;
-use super::ball_chained::STANDING;
+use super::ball_chained::{MOVING, STANDING};
 use super::ball_contacts::{BallForces, BallMotion};
 use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
@@ -158,7 +158,7 @@ impl Model {
         omega: T,
         shortcuts: &mut Shortcuts,
     ) -> BallTangent<T> {
-        let (residual, rings) = if T::CHANGES || space.couple_shares != [0.0; 2] || !at.stands() {
+        let (residual, rings) = if T::CHANGES || space.couple_shares != [0.0; 2] {
             self.one_by_one_to_first_order(space, cells, place, (at, omega), shortcuts)
         } else {
             let mut seeded: BallMotion<Dual<T, K>> = at.lifted();
@@ -169,7 +169,11 @@ impl Model {
             let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
             let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
             let ball = seeded.ball_moving(self, seeds, [none; 2]);
-            let [inner, outer] = self.chained_on_ball::<_, STANDING, _>(space, cells, at, &ball, shortcuts);
+            let [inner, outer] = if at.stands() {
+                self.chained_on_ball::<_, STANDING, _>(space, cells, at, &ball, shortcuts)
+            } else {
+                self.chained_on_ball::<_, MOVING, _>(space, cells, at, &ball, shortcuts)
+            };
             let force = plus(inner.force, outer.force);
             (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
         };
@@ -191,8 +195,8 @@ impl Model {
     }
 
     /// R_r and R_z and the forces on the rings with derivatives by u, v and the first coordinates of the rings, one
-    /// coordinate after the other: where the contacts hold the couple of the spin, something moves, or all of it has
-    /// derivatives itself, each contact would be a quarter of a megabyte of code with all of them at once.
+    /// coordinate after the other: where the contacts hold the couple of the spin, or all of it has derivatives itself,
+    /// each contact would be a quarter of a megabyte of code with all of them at once.
     fn one_by_one_to_first_order<T: Scalar, const K: usize>(
         &self,
         space: &Space,

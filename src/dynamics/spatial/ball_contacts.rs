@@ -98,7 +98,7 @@ impl<T: Scalar> BallMotion<T> {
         Self { omega: none, rings, frames: self.frames.at_rest(), ..*self }
     }
 
-    /// Whether nothing moves, so that no velocity depends on where it is.
+    /// Whether the ball and the rings stand, so that no velocity depends on where it is; defects may turn under it.
     pub(in crate::dynamics) fn stands(&self) -> bool {
         let none = |rate: T| rate.value() == 0.0;
         none(self.omega) && self.rings.iter().flat_map(|ring| ring.velocity).all(none)

@@ -22,7 +22,7 @@ pub trait Scalar:
     /// How deep derivatives are nested: 0 of a plain number.
     const DEPTH: usize;
 
-    /// Whether it has derivatives.
+    /// Whether it has derivatives. A constant, so that a branch that is not taken is not compiled.
     const CHANGES: bool = Self::DEPTH > 0;
 
     /// The number at which `residual` vanishes, known to be `root` without its derivatives; `slope` is the residual's

@@ -26,7 +26,7 @@ pub(in crate::simulation) struct InputValues {
 /// What runs: the model, its state, and what steps it.
 #[derive(Debug, Clone)]
 pub(in crate::simulation) struct Run {
-    /// Shared by all copies of a simulation.
+    /// Copies of a simulation share it until parameters of one are set.
     pub(in crate::simulation) model: Arc<Model>,
     pub(in crate::simulation) workspace: Workspace,
     /// `None` where the scene has no recorder.

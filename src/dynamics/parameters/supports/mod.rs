@@ -128,7 +128,7 @@ impl Supports {
     }
 
     /// Forces on the bodies (N) for their displacements (m) and velocities (m/s).
-    pub fn forces(&self, x: &Bodies, v: &Bodies) -> Bodies {
+    fn forces(&self, x: &Bodies, v: &Bodies) -> Bodies {
         let housing = RingState { position: Vector::new(x[2], x[3]), velocity: Vector::new(v[2], v[3]) };
         let ground = |i: usize, support: &Support| -support.force(x[i], v[i]);
         let [shaft, outer] = self.rings();

@@ -313,7 +313,7 @@ impl Simulation {
 
     /// Change of the angle of element `j`.
     fn element_turn(&self, j: usize) -> f64 {
-        Going::turn(self.run.model.lead(j, self.run.state.cage), &self.change.variation)
+        Going::turned(self.run.model.lead(j, self.run.state.cage), &self.change.variation)
     }
 
     /// What the change makes of one output.
