@@ -1,4 +1,4 @@
-//! A contact near a defect as one potential, said for a ball on the outer raceway.
+//! A contact near a defect as one potential, written for a ball on the outer raceway.
 //!
 //! W(u, s) = (2/5) K Δ(u, s)^{5/2} is the elastic energy of an element whose centre stands at radial path u and arc s;
 //! K is Hertz's constant of the smooth contact. (A roller has K Δ^{19/9} 9/19.) Δ is the *equivalent approach*: the

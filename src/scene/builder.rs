@@ -272,13 +272,6 @@ impl SceneBuilder {
         self
     }
 
-    /// What laws `map` and `love` take a sharp edge to be.
-    #[must_use]
-    pub fn contact_edge(mut self, edge: ContactEdge) -> Self {
-        self.scene.contact.edge = edge;
-        self
-    }
-
     /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force.
     #[must_use]
     pub fn contact_cells(mut self, cells: [u32; 2]) -> Self {

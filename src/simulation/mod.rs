@@ -1,6 +1,4 @@
 //! One bearing that is stepped through time: integrator, variable table, plain state. Does no I/O and reads no clock.
-//!
-//! This is the whole of what `crates/fmi` and `fmu-build` see of the model.
 
 mod error;
 pub mod exchange;

@@ -83,7 +83,7 @@ fn influence(i: usize, k: usize, step: f64) -> f64 {
     if step == 0.0 {
         return own;
     }
-    // As `src/contact/edge_softness.rs` has it; a test there holds the cells' sum along the edge against this.
+    // As `src/contact/love/edge_softness.rs` has it; a test there holds the cells' sum along the edge against this.
     let s = position(i) + position(k);
     let image = (-s / (4.0 * step)).exp() * 0.5 * (1.0 + (1.6 * step / s).powi(2)).ln();
     own + 0.5 * image_factor(0.3) * WIDTH * image

@@ -27,13 +27,6 @@ pub struct Mirror {
     pub middle_row: bool,
 }
 
-impl Mirror {
-    /// How many cells of the whole contact one unknown stands for.
-    pub fn images(self) -> f64 {
-        f64::from((1 + u8::from(self.x)) * (1 + u8::from(self.y)))
-    }
-}
-
 /// Row and column of a cell in a window.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CellIndex {

@@ -14,7 +14,7 @@ use crate::scene::Motion;
 
 impl Variation {
     /// Makes it that by time at `tau`, all that has a state standing still.
-    fn go_on(&mut self, model: &Model, now: &FramedKinematics, excitation: &Excitation, tau: f64) {
+    fn set_by_time(&mut self, model: &Model, now: &FramedKinematics, excitation: &Excitation, tau: f64) {
         (self.cage_angle, self.cage_speed) = (now.cage.speed, now.cage.acceleration);
         (self.film_speed, self.frames) = (excitation.relative_speed.rate_at(tau), excitation.frame_rates(tau));
         self.beyond = model.prescribed_rates(excitation, tau);
@@ -43,7 +43,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) {
         let now = self.kinematics(excitation, tau, state);
-        time.go_on(self, &now, excitation, tau);
+        time.set_by_time(self, &now, excitation, tau);
         by_time.fill(0.0);
         let at = ((excitation, tau), &now, (cells, state));
         match &self.space {

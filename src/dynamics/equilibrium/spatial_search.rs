@@ -110,7 +110,8 @@ impl Model {
         let (distance, radial) = (inner.reach + outer.reach, inner.centre_radius - outer.centre_radius);
         let closed = (distance * distance - radial * radial).max(0.0).sqrt();
         let sense = if load == 0.0 { return 0.0 } else { load.signum() * if ring == 0 { 1.0 } else { -1.0 } };
-        let approach = (load.abs() / (self.element_count as f64 * self.inner.contact.law.stiffness)).powf(2.0 / 3.0);
+        let root = libm::cbrt(load.abs() / (self.element_count as f64 * self.inner.contact.law.stiffness));
+        let approach = root * root;
         let apart = sense * (closed + 4.0 * approach) - (inner.shift - outer.shift);
         let held = &given.rings;
         match ring {

@@ -12,8 +12,7 @@
 //! the surface, without hardening and without material piled up; H is the indentation hardness, three times the yield
 //! stress.
 //!
-//! For stored problems and reference solutions; last digits depend on the machine's registers. Warm, or with few
-//! unknowns, [`GridActiveSet`](super::GridActiveSet) is faster.
+//! For stored problems and reference solutions; last digits depend on the machine's registers.
 
 use brinell::contact::error::ContactError;
 

@@ -52,20 +52,6 @@ impl GridContact {
     pub fn max_pressure(&self) -> f64 {
         self.pressure.iter().fold(0.0, |m, &p| m.max(p))
     }
-
-    /// Whether a cell at the border is under pressure, for a grid of this many columns.
-    pub fn reaches_border(&self, columns: usize) -> bool {
-        let rows = self.pressure.len() / columns.max(1);
-        self.pressure.iter().enumerate().any(|(c, &p)| {
-            let (i, j) = (c % columns, c / columns);
-            p > 0.0 && (i == 0 || i + 1 == columns || j == 0 || j + 1 == rows)
-        })
-    }
-
-    /// Number of cells under pressure.
-    pub fn contact_cells(&self) -> usize {
-        self.pressure.iter().filter(|&&p| p > 0.0).count()
-    }
 }
 
 /// Anything that solves a [`GridProblem`] at a prescribed approach.
@@ -208,14 +194,6 @@ impl GridProblem {
     /// Smallest gap (m).
     pub fn first_touch(&self) -> f64 {
         self.gap.iter().fold(f64::INFINITY, |m, &h| m.min(h))
-    }
-
-    /// About how many unknowns the direct solver meets at the approach δ (m): on paraboloids the contact is where the
-    /// interference exceeds half its largest value; mirrored cells count once. The direct solver is the faster one
-    /// below some two hundred, by measurement.
-    pub fn expected_unknowns(&self, approach: f64) -> f64 {
-        let least = approach - 0.5 * (approach - self.first_touch());
-        self.gap.iter().filter(|h| **h < least).count() as f64 / self.mirror().images()
     }
 
     /// Love's kernel for this grid.

@@ -1,4 +1,4 @@
-//! The FMI 2.0 co-simulation C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
+//! The FMI 2.0 C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
 //!
 //! The 34 functions of a co-simulation FMU are exported, and the 10 of model exchange, which in an instance for
 //! co-simulation only say so: some importers look all 44 up before they load an FMU of either kind. Nothing else is

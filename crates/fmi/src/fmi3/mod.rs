@@ -1,4 +1,4 @@
-//! The FMI 3.0 co-simulation C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
+//! The FMI 3.0 C interface: how a host sees a [`Simulation`](brinell::simulation::Simulation).
 //!
 //! All functions of `fmi3Functions.h` are exported, as the standard asks; those of scheduled execution, clocks and
 //! structural parameters only say that they are not provided, those of model exchange in an instance for co-simulation.

@@ -197,6 +197,7 @@ mod tests {
                 clock = clock.after(point, step).unwrap();
                 added += step;
             }
+            assert!(matches!(clock.after(added, step), Err(ClockError::PastStop { .. })), "{added}");
         }
     }
 

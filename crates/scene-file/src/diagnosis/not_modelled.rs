@@ -13,18 +13,18 @@ struct Asked {
 }
 
 /// The message for a defect that is given by another key.
-const DEFECTS: &str = "defects are said by a table [defect], or by several [[defect]], whose key `on` \
+const DEFECTS: &str = "defects are given by a table [defect], or by several [[defect]], whose key `on` \
                        is \"outer\", \"inner\" or \"element\"";
-const ELEMENTS: &str = "rolling elements are said by bearing.element, \"ball\" or \"cylindrical-roller\" with \
+const ELEMENTS: &str = "rolling elements are given by bearing.element, \"ball\" or \"cylindrical-roller\" with \
                         bearing.roller_length_mm; other rollers are not modelled, so far";
 const BY_NAME: &str =
     "a bearing is given by its dimensions or by bearing.catalogue, its rolling elements by bearing.element";
-const AXIS: &str = "motion along the axis and tilt are said by bearing.degrees_of_freedom = 3 or 5, an axial load by \
+const AXIS: &str = "motion along the axis and tilt are given by bearing.degrees_of_freedom = 3 or 5, an axial load by \
                     the third number of load_n, an angle by bearing.contact_angle_deg, moments by \
                     shaft.load_moment_n_m";
 const HELD: &str = "the tilt of a housing that moves by itself is held, so far: only the shaft has inertia, moments, \
                     damping and stiffness of tilt";
-const DRY: &str = "an oil film is said by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is \
+const DRY: &str = "an oil film is given by a table [film] with viscosity_pa_s and pressure_viscosity_1_pa; friction is \
                    not modelled";
 
 const ASKED: [Asked; 7] = [
