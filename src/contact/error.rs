@@ -19,16 +19,7 @@ pub enum ContactError {
          cell of the contact grid, {cell_um:.2} um: measure more finely, make cells longer with contact.cells, or add \
          points on lines that are meant to be straight"
     )]
-    TooCoarse {
-        /// "along" or "across".
-        direction: &'static str,
-        /// Distance of the points (µm).
-        step_um: f64,
-        /// Arc or axial coordinate between them, from the middle (mm).
-        at_mm: f64,
-        /// Length or width of a cell (µm).
-        cell_um: f64,
-    },
+    TooCoarse { direction: &'static str, step_um: f64, at_mm: f64, cell_um: f64 },
     /// Softness of edges is asked for, and there is none.
     #[error(
         "contact.edge = \"step\": the defect has no edge steeper than 60 degrees, and no other is softer than a \
@@ -40,67 +31,26 @@ pub enum ContactError {
         "defect: it is {length_mm:.4} mm long, it must be below {limit_mm:.4} mm: elements feel it to {reach_mm:.4} mm \
          beyond either end, {why}, and the outer raceway is only {circumference_mm:.4} mm around"
     )]
-    EndsMeet {
-        /// Length along the raceway (mm).
-        length_mm: f64,
-        /// Length from which on the two ends are felt at once (mm).
-        limit_mm: f64,
-        /// Distance beyond its ends within which elements feel the defect, the larger of both (mm).
-        reach_mm: f64,
-        /// What makes them feel it there.
-        why: &'static str,
-        /// Circumference of the outer raceway (mm).
-        circumference_mm: f64,
-    },
+    EndsMeet { length_mm: f64, limit_mm: f64, reach_mm: f64, why: &'static str, circumference_mm: f64 },
     /// A rigid element that lies so deep beside a wall that only its side meets the edge: its path leaps there.
     #[error(
         "defect: {at_mm:.4} mm from its middle an element of radius {radius_mm:.4} mm lies {depth_mm:.4} mm deep \
          beside an edge that it meets with its side; the limit is {limit_mm:.4} mm, from deeper down no rigid element \
          rolls out: make the defect shallower or its flank gentler"
     )]
-    NoWayOut {
-        /// Where the element's centre is, along the raceway from the defect's middle (mm).
-        at_mm: f64,
-        /// Depth to which the element's centre sinks there (mm).
-        depth_mm: f64,
-        /// Depth up to which the edge still carries it (mm).
-        limit_mm: f64,
-        /// Radius of the element (mm).
-        radius_mm: f64,
-    },
+    NoWayOut { at_mm: f64, depth_mm: f64, limit_mm: f64, radius_mm: f64 },
     /// An array has the wrong length.
     #[error("{quantity} has {length} values, {expected} are needed")]
-    WrongLength {
-        /// Which array.
-        quantity: &'static str,
-        /// Its length.
-        length: usize,
-        /// The length it must have.
-        expected: usize,
-    },
+    WrongLength { quantity: &'static str, length: usize, expected: usize },
     /// The contact touches the border of its window, so part of it may lie outside.
     #[error(
         "the contact reaches the window's edge at column {column}, row {row}: the window is too small for approach \
          {approach:e} m"
     )]
-    ReachesEdge {
-        /// Column of the offending cell.
-        column: usize,
-        /// Row of the offending cell.
-        row: usize,
-        /// Approach (m).
-        approach: f64,
-    },
+    ReachesEdge { column: usize, row: usize, approach: f64 },
     /// The iteration did not come to an end.
     #[error("contact not solved after {iterations} iterations: residual {residual:e}, limit {limit:e}")]
-    NotConverged {
-        /// Iterations made.
-        iterations: usize,
-        /// Residual reached, relative to the approach.
-        residual: f64,
-        /// Residual asked for.
-        limit: f64,
-    },
+    NotConverged { iterations: usize, residual: f64, limit: f64 },
     /// The stiffness matrix of the pressed cells cannot be factored.
     #[error(
         "contact not solved: pivot {pivot} of the stiffness matrix of its {cells} pressed cells is not above 0, where \
@@ -109,7 +59,6 @@ pub enum ContactError {
     NotPositiveDefinite {
         /// Number of the pivot, from 1.
         pivot: usize,
-        /// Pressed cells.
         cells: usize,
     },
     /// The set of pressed cells comes back to what it was.
@@ -117,27 +66,14 @@ pub enum ContactError {
         "contact not solved: its set of {cells} pressed cells still changes after {limit} sets, which is the limit; \
          other cells (contact.cells) may help"
     )]
-    Cycles {
-        /// Pressed cells of the last set.
-        cells: usize,
-        /// Sets that may be tried.
-        limit: usize,
-    },
+    Cycles { cells: usize, limit: usize },
     /// Outside the range the law was prepared for.
     #[error(
         "{quantity} is {value:.6e} m, the range prepared is {}; contact.largest_force_n says how large forces near the \
          defect may be",
         prepared(*lower, *upper)
     )]
-    OutOfRange {
-        quantity: &'static str,
-        /// Its value (m).
-        value: f64,
-        /// Smallest value covered (m).
-        lower: f64,
-        /// Largest value covered (m).
-        upper: f64,
-    },
+    OutOfRange { quantity: &'static str, value: f64, lower: f64, upper: f64 },
     /// Stored map that cannot be trusted.
     #[error("contact map refused: {reason}")]
     MapRefused { reason: String },
@@ -146,14 +82,7 @@ pub enum ContactError {
         "contact map: error {achieved:e} of full scale with {nodes} nodes, {requested:e} was asked for: more cells \
          (contact.cells) or a larger error (contact.map_accuracy) may help"
     )]
-    MapNotAccurate {
-        /// Largest error found between nodes, relative to full scale.
-        achieved: f64,
-        /// Error asked for.
-        requested: f64,
-        /// Nodes spent.
-        nodes: usize,
-    },
+    MapNotAccurate { achieved: f64, requested: f64, nodes: usize },
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::surface::SurfaceError;
 /// What goes wrong in setting up or stepping a bearing. Each message names the quantity, its value and the limit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum SimulationError {
     /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
     #[error(transparent)]
@@ -27,36 +28,19 @@ pub enum SimulationError {
     Contact(#[from] ContactError),
     /// The contact law cannot be used with this surface.
     #[error("contact.law = {law:?} takes a profile along the raceway only: use map or love for a topography")]
-    LawNotAvailable {
-        /// The law.
-        law: ContactLaw,
-    },
+    LawNotAvailable { law: ContactLaw },
     /// The balls' gyroscopic couple where the outer ring turns.
     #[error("bearing.gyroscopic is of an outer ring that stands: leave it out, or housing.speed_hz")]
     CoupleOfTurningHousing,
     /// What is modelled only of rings that stay in their plane.
     #[error("{what} is modelled with bearing.degrees_of_freedom = 2 only, not with {given}")]
-    NotInSpace {
-        /// What was asked for.
-        what: &'static str,
-        /// Degrees of freedom.
-        given: usize,
-    },
+    NotInSpace { what: &'static str, given: usize },
     /// A topography beside which balls run.
     #[error(
         "defect.profile: the topography of the {ring} ring reaches from {first_mm:.4} to {last_mm:.4} mm across the \
          groove (axial_mm), and the track at bearing.operating_angle_deg is at {track_mm:.4} mm: it must lie within"
     )]
-    OffTopography {
-        /// "inner" or "outer".
-        ring: &'static str,
-        /// Where the track is, from the groove's bottom (mm).
-        track_mm: f64,
-        /// First axial coordinate of the topography (mm).
-        first_mm: f64,
-        /// Last axial coordinate (mm).
-        last_mm: f64,
-    },
+    OffTopography { ring: &'static str, track_mm: f64, first_mm: f64, last_mm: f64 },
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {} s: it must be finite and above 0", Plain(*.0))]
     CommunicationStep(f64),
@@ -81,143 +65,62 @@ pub enum SimulationError {
          contact of {contact_mm:.3} mm at {force} N to a wave, or the contact averages them; give shorter ones as a \
          defect with defect.profile"
     )]
-    ShortWaves {
-        /// Waves in a turn.
-        order: u32,
-        /// The most there may be.
-        limit: f64,
-        /// Length of the contact along rolling (mm).
-        contact_mm: f64,
-        /// The largest force for which contacts are prepared (N).
-        force: f64,
-    },
+    ShortWaves { order: u32, limit: f64, contact_mm: f64, force: f64 },
     /// Oil films so thick that they press the contacts beyond the elastic range.
     #[error(
         "oil films of {films_um:.3} um at {speed_hz} Hz leave a radial clearance of {clearance_um:.3} um: it must be \
          at least {limit_um:.3} um"
     )]
-    ThickFilms {
-        /// Both films together (µm).
-        films_um: f64,
-        /// Speed of the inner ring against the outer (Hz).
-        speed_hz: f64,
-        /// What is left of the clearance (µm).
-        clearance_um: f64,
-        /// Limit (µm).
-        limit_um: f64,
-    },
+    ThickFilms { films_um: f64, speed_hz: f64, clearance_um: f64, limit_um: f64 },
     /// A step was asked for before initialization.
     #[error("a step was asked for before initialization was finished")]
     NotInitialized,
     /// The integration failed; the state is that of the last accepted integration step.
     #[error("at {time:.6e} s: {cause}")]
-    Step {
-        /// Start of the communication step (s).
-        time: f64,
-        /// The reason.
-        cause: StepError,
-    },
+    Step { time: f64, cause: StepError },
 }
 
 /// A variable was addressed wrongly or given a value that it cannot have. Nothing was changed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum VariableError {
     /// No such reference.
     #[error("value reference {0} is unknown: this model's references are 0 to {1}")]
     UnknownReference(u32, u32),
     /// No such name.
     #[error("this model has no variable {name}")]
-    UnknownName {
-        /// The name.
-        name: String,
-    },
+    UnknownName { name: String },
     /// A list that does not have as many entries as there are value references.
     #[error("{references} value references with a list of {given} for them: there must be as many of both")]
-    Lengths {
-        /// Number of value references.
-        references: usize,
-        /// Length of the list.
-        given: usize,
-    },
+    Lengths { references: usize, given: usize },
     /// The variable has another type.
     #[error("variable {name} (value reference {reference}) is not of type {wanted}")]
-    WrongType {
-        /// Its name.
-        name: String,
-        /// Its reference.
-        reference: u32,
-        /// Type of the call.
-        wanted: &'static str,
-    },
+    WrongType { name: String, reference: u32, wanted: &'static str },
     /// A variable that is not real was read or set by its name, as only a real one can be.
     #[error("variable {name} is of type {kind}: use {call}, with its reference")]
-    NotReal {
-        /// Its name.
-        name: String,
-        /// Its type.
-        kind: &'static str,
-        /// The method for its type.
-        call: &'static str,
-    },
+    NotReal { name: String, kind: &'static str, call: &'static str },
     /// An output, or a parameter after initialization.
     #[error("variable {name} cannot be set: {why}")]
-    NotSettable {
-        /// Its name.
-        name: String,
-        /// The reason.
-        why: &'static str,
-    },
+    NotSettable { name: String, why: &'static str },
     /// A value outside its range, or not finite.
     #[error("variable {name}: {} is outside {} … {}", Plain(*value), Plain(*min), Plain(*max))]
-    OutOfRange {
-        /// Its name.
-        name: String,
-        /// The value given.
-        value: f64,
-        /// Smallest value allowed.
-        min: f64,
-        /// Largest value allowed.
-        max: f64,
-    },
+    OutOfRange { name: String, value: f64, min: f64, max: f64 },
     /// Derivatives are taken of inputs only, and their orders begin at 1.
     #[error(
         "derivative of order {order} of {name}: only real inputs have derivatives that can be set, of order 1 and above"
     )]
-    Derivative {
-        /// Its name.
-        name: String,
-        /// Order asked for.
-        order: i32,
-    },
+    Derivative { name: String, order: i32 },
     /// A derivative that the motion within a step has no use for.
     #[error("derivative of order {order} of {name} would have no effect: orders up to {highest} act")]
-    UnusedDerivative {
-        /// Its name.
-        name: String,
-        /// Order given.
-        order: i32,
-        /// Highest order that acts.
-        highest: i32,
-    },
+    UnusedDerivative { name: String, order: i32, highest: i32 },
     /// Derivatives are given of real outputs.
     #[error("derivative of {name}: it is no real output")]
-    NotAnUnknown {
-        /// Its name.
-        name: String,
-    },
+    NotAnUnknown { name: String },
     /// Directional derivatives are taken by real inputs, and before the start by real parameters.
     #[error("directional derivative by {name}: it is no real input, nor a real parameter before the start")]
-    NotAKnown {
-        /// Its name.
-        name: String,
-    },
+    NotAKnown { name: String },
     /// Derivatives by time are given of order 1.
     #[error("derivative of order {order} of {name} by time: only order 1 is given")]
-    OutputDerivative {
-        /// Its name.
-        name: String,
-        /// Order asked for.
-        order: i32,
-    },
+    OutputDerivative { name: String, order: i32 },
 }

@@ -9,31 +9,20 @@ use faer::linalg::solvers::{Solve, SolveLstsq};
 /// Why an eigenproblem has no solution that can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum EigenError {
     /// An entry of the matrix is no finite number.
     #[error("an entry of the matrix is not finite")]
     NotFinite,
     /// Least squares with fewer rows than unknowns, or other rows than known numbers.
     #[error("{rows} rows and {known} known numbers for {unknown} unknowns")]
-    Shape {
-        /// Number of rows.
-        rows: usize,
-        /// Of known numbers.
-        known: usize,
-        /// Of unknowns.
-        unknown: usize,
-    },
+    Shape { rows: usize, known: usize, unknown: usize },
     /// The iteration did not end.
     #[error("the iteration for eigenvalues did not converge")]
     NoConvergence,
     /// An eigenpair does not satisfy its equation.
     #[error("an eigenpair misses its equation by {residual:.1e} of the matrix's norm (limit {limit:.0e})")]
-    Residual {
-        /// ‖Az − λz‖ / (‖A‖ ‖z‖).
-        residual: f64,
-        /// Largest that is allowed.
-        limit: f64,
-    },
+    Residual { residual: f64, limit: f64 },
 }
 
 /// Largest ‖Az − λz‖ of a pair, as a share of ‖A‖ ‖z‖: a thousand times the rounding of some fifty rows.

@@ -5,18 +5,14 @@ use crate::contact::error::ContactError;
 /// Why no equilibrium was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum EquilibriumError {
     /// The residual did not vanish.
     #[error(
         "no static equilibrium: a net force of {residual:.3e} N stays on the rings (limit {limit:.1e} N); \
          give the internal rings a support stiffness that can carry their load"
     )]
-    NotFound {
-        /// Force left (N).
-        residual: f64,
-        /// Largest force allowed (N).
-        limit: f64,
-    },
+    NotFound { residual: f64, limit: f64 },
     /// An element ends where the contact law near the defect has no answer any more.
     #[error(
         "no static equilibrium: element {element}, {angle_deg:.4} degrees from the defect's centre, finds no balance, \
@@ -25,11 +21,8 @@ pub enum EquilibriumError {
     Contact {
         /// Number of the element, from 1.
         element: usize,
-        /// Its angle from the defect's centre (°).
         angle_deg: f64,
-        /// Force left on it (N).
         residual: f64,
-        /// Why there is no answer.
         cause: ContactError,
     },
     /// A ball that in balance would lie where the contact law near the defect has no answer.
@@ -40,9 +33,7 @@ pub enum EquilibriumError {
     Unsolved {
         /// Number of the element, from 1.
         element: usize,
-        /// Its angle from the defect's centre (°).
         angle_deg: f64,
-        /// Why there is no answer.
         cause: ContactError,
     },
     /// An element that nothing holds.
@@ -55,9 +46,7 @@ pub enum EquilibriumError {
     Element {
         /// Number of the element, from 1.
         element: usize,
-        /// Where the search ended, its path u (m).
         path: f64,
-        /// Radial force left there (N).
         force: f64,
     },
 }

@@ -1,5 +1,6 @@
 //! Random numbers from a seed, and which seeds a test runs through.
 
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Numbers that follow from a seed alone: SplitMix64 (Steele, Lea and Flood 2014).
@@ -71,6 +72,18 @@ pub fn seeds(short: u64) -> std::ops::Range<u64> {
     let (first, count) = (number("BRINELL_SEED"), number("BRINELL_SCENES"));
     let start = first.unwrap_or(0);
     start..start + count.unwrap_or(if first.is_some() { 1 } else { short })
+}
+
+/// As [`for_seeds`], of a check that says whether it has compared anything: of several seeds two must have.
+pub fn for_compared(short: u64, check: impl Fn(u64, &mut Draw) -> Result<bool, String>) {
+    let (tried, compared) = (Cell::new(0), Cell::new(0));
+    for_seeds(short, |seed, draw| {
+        tried.set(tried.get() + 1);
+        compared.set(compared.get() + u32::from(check(seed, draw)?));
+        Ok(())
+    });
+    let (tried, compared) = (tried.get(), compared.get());
+    assert!(compared >= 2 || tried < 6, "of {tried} seeds {compared} were compared");
 }
 
 /// Runs a check on all seeds and fails with those that failed, each with its reason.

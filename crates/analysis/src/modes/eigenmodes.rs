@@ -19,18 +19,14 @@ use std::f64::consts::TAU;
 /// Why there are no modes.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum ModesError {
     /// The equilibrium is missing.
     #[error(transparent)]
     Static(#[from] StaticError),
     /// The eigenproblem has no solution that can be trusted.
     #[error("cage angle {cage_angle_deg} degrees: {cause}")]
-    Eigen {
-        /// Cage angle (°).
-        cage_angle_deg: f64,
-        /// The reason.
-        cause: EigenError,
-    },
+    Eigen { cage_angle_deg: f64, cause: EigenError },
 }
 
 /// How a mode moves by itself.

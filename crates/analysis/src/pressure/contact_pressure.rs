@@ -49,12 +49,7 @@ pub enum PressureError {
         "contact force {force} N: the contact reaches {percent:.0} % of the radius of ball or groove, beyond which the \
          bodies are no half-spaces; give a smaller force, or a position where the ball lies on the raceway"
     )]
-    TooWide {
-        /// Force (N).
-        force: f64,
-        /// Part of the radius (%).
-        percent: f64,
-    },
+    TooWide { force: f64, percent: f64 },
     /// The defect's profile cannot be used.
     #[error(transparent)]
     Surface(#[from] SurfaceError),

@@ -14,29 +14,16 @@ pub enum SizingError {
     File { path: PathBuf, cause: std::io::Error },
     /// The file is not what its ending says, or of a kind that is not read.
     #[error("{path}: {why}")]
-    Format {
-        path: PathBuf,
-        /// What is wrong, and what would be right.
-        why: String,
-    },
+    Format { path: PathBuf, why: String },
     /// The column that counts time or samples is uneven.
     #[error("{path}: {column}: {why}")]
-    Times {
-        path: PathBuf,
-        /// Heading of the column, or its number.
-        column: String,
-        why: Box<Uneven>,
-    },
+    Times { path: PathBuf, column: String, why: Box<Uneven> },
     /// No recordings were given.
     #[error("0 recordings: at least 1 is needed")]
     NoRecordings,
     /// A recording was given twice.
     #[error("{name} and {other} have equal samples: a recording counts once")]
-    Twice {
-        name: String,
-        /// The one before it.
-        other: String,
-    },
+    Twice { name: String, other: String },
     /// A quantity that must be positive and finite is not.
     #[error("{name}: {quantity} {value} {unit}: it must be finite and above 0")]
     NotPositive { name: String, quantity: &'static str, value: f64, unit: &'static str },
@@ -56,106 +43,35 @@ pub enum SizingError {
         "{name}: samples from {low:e} to {high:e}: they must differ by {lowest:e} at least and stay within \
          ±{highest:e}; choose another unit"
     )]
-    Magnitude {
-        name: String,
-        /// Smallest sample.
-        low: f64,
-        /// Largest sample.
-        high: f64,
-        /// Smallest range.
-        lowest: f64,
-        /// Largest magnitude.
-        highest: f64,
-    },
+    Magnitude { name: String, low: f64, high: f64, lowest: f64, highest: f64 },
     /// The signal sits at its limits.
     #[error("{name}: {percent:.2} % of the samples sit in runs at the extreme value {value}: clipped; limit {limit} %")]
-    Clipped {
-        name: String,
-        /// Share of samples in runs at the extremes (%).
-        percent: f64,
-        value: f64,
-        /// Largest share allowed (%).
-        limit: f64,
-    },
+    Clipped { name: String, percent: f64, value: f64, limit: f64 },
     /// Too few elements pass the defect during the recording.
     #[error(
         "{name}: {duration:.3} s hold {passages:.1} passages at a ball pass frequency of {bpfo:.3} Hz: at least \
          {limit} are needed"
     )]
-    TooShort {
-        name: String,
-        /// Duration (s).
-        duration: f64,
-        /// Passages in it.
-        passages: f64,
-        /// Ball pass frequency (Hz).
-        bpfo: f64,
-        /// Fewest passages.
-        limit: usize,
-    },
+    TooShort { name: String, duration: f64, passages: f64, bpfo: f64, limit: usize },
     /// The ball pass frequency is too high for the sampling rate: rate or speed are wrong.
     #[error(
         "{name}: {samples:.1} samples per passage ({rate:.1} Hz at a ball pass frequency of {bpfo:.3} Hz): at least \
          {limit} are needed; is the rate or the speed of {speed} Hz wrong?"
     )]
-    TooCoarse {
-        name: String,
-        /// Samples between one element and the next.
-        samples: f64,
-        /// Sampling rate (Hz).
-        rate: f64,
-        /// Ball pass frequency (Hz).
-        bpfo: f64,
-        /// Shaft speed (Hz).
-        speed: f64,
-        /// Fewest samples per passage.
-        limit: usize,
-    },
+    TooCoarse { name: String, samples: f64, rate: f64, bpfo: f64, speed: f64, limit: usize },
     /// The tachometer column gives no speed.
     #[error("{name}: {pulses} tachometer pulses: at least {limit} are needed")]
-    Tachometer {
-        name: String,
-        /// Rising edges.
-        pulses: usize,
-        /// Fewest pulses.
-        limit: usize,
-    },
+    Tachometer { name: String, pulses: usize, limit: usize },
     /// The column beside the signal is not as long.
     #[error("{name}: {other} samples of tachometer or speed beside {samples} of the signal: they must be equally many")]
-    OtherLength {
-        name: String,
-        /// Length of the column.
-        other: usize,
-        /// Length of the signal.
-        samples: usize,
-    },
+    OtherLength { name: String, other: usize, samples: usize },
     /// The speed varies too much.
     #[error("{name}: shaft speed from {low:.3} to {high:.3} Hz: the fastest may be at most {limit} times the slowest")]
-    SpeedRange {
-        name: String,
-        /// Lowest speed (Hz).
-        low: f64,
-        /// Highest speed (Hz).
-        high: f64,
-        /// Largest ratio.
-        limit: f64,
-    },
+    SpeedRange { name: String, low: f64, high: f64, limit: f64 },
     /// The signal does not say how fast the shaft turns.
     #[error("{name}: {why}; give the speed, or other limits for it")]
-    NoSpeed {
-        name: String,
-        /// What it shows instead.
-        why: String,
-    },
+    NoSpeed { name: String, why: String },
     /// The rate contradicts the file.
     #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
-    OtherRate {
-        name: String,
-        /// The rate that was given (Hz).
-        given: f64,
-        /// The file's own (Hz).
-        stated: f64,
-        /// Largest difference (%).
-        limit: f64,
-    },
+    OtherRate { name: String, given: f64, stated: f64, limit: f64 },
 }

@@ -31,115 +31,47 @@ const SIDE: usize = 8;
 /// What is wrong with the times. Times and lengths are in the column's own unit, samples are counted from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum Uneven {
     /// A time is no number.
     #[error("the time of sample {index} is {value}: times must be finite")]
-    NotFinite {
-        /// The sample.
-        index: usize,
-        /// Its time.
-        value: f64,
-    },
+    NotFinite { index: usize, value: f64 },
     /// Samples are missing.
     #[error(
         "a hole of {} after {} (sample {index}): about {missing} samples are missing; holes in all: {holes}. Cut the \
          recording there",
         quantity(.length, .unit), quantity(.at, .unit)
     )]
-    Hole {
-        /// The last sample before it.
-        index: usize,
-        /// Its time.
-        at: f64,
-        /// Time from there to the next sample, less one period.
-        length: f64,
-        /// The same in samples.
-        missing: f64,
-        /// Number of holes.
-        holes: usize,
-        /// Unit.
-        unit: String,
-    },
+    Hole { index: usize, at: f64, length: f64, missing: f64, holes: usize, unit: String },
     /// Two samples at one time.
     #[error("samples {index} and {} have one time, {}: is one of them repeated?", .index + 1, quantity(.at, .unit))]
-    Repeated {
-        /// The first of them.
-        index: usize,
-        /// Their time.
-        at: f64,
-        /// Unit.
-        unit: String,
-    },
+    Repeated { index: usize, at: f64, unit: String },
     /// The clock goes back.
     #[error(
         "the time goes back after {} (sample {index}), to {}: it must rise",
         quantity(.at, .unit), quantity(.to, .unit)
     )]
-    Backward {
-        /// The last sample before.
-        index: usize,
-        /// Its time.
-        at: f64,
-        /// The next one's.
-        to: f64,
-        /// Unit.
-        unit: String,
-    },
+    Backward { index: usize, at: f64, to: f64, unit: String },
     /// The digits do not distinguish samples.
     #[error(
         "times are given to {}, samples come every {}: whether some are missing is not known. Give the times more \
          digits",
         quantity(.digit, .unit), quantity(.period, .unit)
     )]
-    Coarse {
-        /// Unit of the last digit.
-        digit: f64,
-        /// Sampling period.
-        period: f64,
-        /// Unit.
-        unit: String,
-    },
+    Coarse { digit: f64, period: f64, unit: String },
     /// Steps differ by more than digits explain.
     #[error(
         "{count} of {of} steps are uneven, the first of {} after {} (sample {index}): samples come every {}, and \
          {limit:.1} % of that is allowed there, digits included",
         quantity(.step, .unit), quantity(.at, .unit), quantity(.period, .unit)
     )]
-    Jitter {
-        /// The sample before the first uneven step.
-        index: usize,
-        /// Its time.
-        at: f64,
-        /// That step.
-        step: f64,
-        /// Sampling period.
-        period: f64,
-        /// Largest difference allowed there [% of the period].
-        limit: f64,
-        /// Number of uneven steps.
-        count: usize,
-        /// Number of steps.
-        of: usize,
-        /// Unit.
-        unit: String,
-    },
+    Jitter { index: usize, at: f64, step: f64, period: f64, limit: f64, count: usize, of: usize, unit: String },
     /// The clock's rate changes.
     #[error(
         "samples come every {} around {} and every {} in the mean: {limit} % of difference is allowed",
         quantity(.period, .unit), quantity(.at, .unit), quantity(.mean, .unit)
     )]
-    Drift {
-        /// Mean period of the stretch that differs most.
-        period: f64,
-        /// Time of its middle.
-        at: f64,
-        /// Mean period of all.
-        mean: f64,
-        /// Largest difference (%).
-        limit: f64,
-        /// Unit.
-        unit: String,
-    },
+    Drift { period: f64, at: f64, mean: f64, limit: f64, unit: String },
 }
 
 fn quantity(value: &f64, unit: &str) -> String {

@@ -50,6 +50,7 @@ const FIRST_DAMPING: f64 = 0.01;
 /// Why no modes follow from a response.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum ResponseError {
     /// The text is no table of a response.
     #[error("{0}")]
@@ -68,11 +69,8 @@ pub enum ResponseError {
     Number {
         /// Which line of numbers, from 1.
         row: usize,
-        /// Heading.
         column: String,
-        /// The number.
         value: f64,
-        /// What it must be.
         why: &'static str,
     },
     /// No modes come near.
@@ -81,36 +79,17 @@ pub enum ResponseError {
          motion unchanged, or too noisy",
         100.0 * misfit, 100.0 * LARGEST_MISFIT
     )]
-    Misfit {
-        /// Number of modes that come nearest.
-        modes: usize,
-        /// What they miss.
-        misfit: f64,
-    },
+    Misfit { modes: usize, misfit: f64 },
     /// Modes explain little of what they are for.
     #[error(
         "{modes} modes miss {:.2} % of the response, and without any 1 misses {:.2} %: they must explain at least half \
          of what distinguishes it from 1",
         100.0 * misfit, 100.0 * without
     )]
-    Unexplained {
-        /// Number of modes that come nearest.
-        modes: usize,
-        /// What they miss.
-        misfit: f64,
-        /// What no modes miss.
-        without: f64,
-    },
+    Unexplained { modes: usize, misfit: f64, without: f64 },
     /// The response fits with a sign turned.
     #[error("{turned} is turned: with the other sign {modes} modes miss {:.2} % of the response", 100.0 * misfit)]
-    Turned {
-        /// Which sign.
-        turned: &'static str,
-        /// Number of modes.
-        modes: usize,
-        /// What they miss.
-        misfit: f64,
-    },
+    Turned { turned: &'static str, modes: usize, misfit: f64 },
 }
 
 /// A response: the acceleration at the sensor over that of the outer ring, line by line.

@@ -35,6 +35,7 @@ pub struct CriticalLoad {
 /// Why there is no critical load.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum NoCriticalLoad {
     /// No element is in a defect deep enough to carry nothing.
     #[error("no element has gone down into the defect")]
@@ -44,24 +45,10 @@ pub enum NoCriticalLoad {
         "under {load:.0} N, where the elements at the bottom of the defect have {gap_um:.1} um to go, others are \
          pressed in by {approach_um:.1} um: at most {limit_um:.1} um, a tenth of an element's radius, are elastic"
     )]
-    BeyondElastic {
-        /// Load (N).
-        load: f64,
-        /// Least distance of an element at the bottom from the inner raceway (µm).
-        gap_um: f64,
-        /// Greatest approach of an inner contact (µm).
-        approach_um: f64,
-        /// Limit of the approach (µm).
-        limit_um: f64,
-    },
+    BeyondElastic { load: f64, gap_um: f64, approach_um: f64, limit_um: f64 },
     /// There is no balance under a load at which the elements would carry, or might.
     #[error("under {load:.0} N: {cause}")]
-    NoBalance {
-        /// Load (N).
-        load: f64,
-        /// The reason.
-        cause: EquilibriumError,
-    },
+    NoBalance { load: f64, cause: EquilibriumError },
 }
 
 /// Derivatives of the critical load at its cage angle.

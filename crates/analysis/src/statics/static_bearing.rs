@@ -29,6 +29,7 @@ use std::sync::Arc;
 /// Why a static study cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs)]
 pub enum StaticError {
     /// The scene is impossible.
     #[error(transparent)]
@@ -41,20 +42,10 @@ pub enum StaticError {
     SetUp(#[from] SimulationError),
     /// No balance was found.
     #[error("cage angle {cage_angle_deg} degrees, load {load:?} N: {cause}")]
-    Equilibrium {
-        /// Cage angle (°).
-        cage_angle_deg: f64,
-        /// Load along x, y and z (N).
-        load: [f64; 3],
-        /// The reason.
-        cause: EquilibriumError,
-    },
+    Equilibrium { cage_angle_deg: f64, load: [f64; 3], cause: EquilibriumError },
     /// Rings that move along the axis or tilt.
     #[error("bearing.degrees_of_freedom = {given}: this study is of rings in their plane, 2")]
-    InSpace {
-        /// Degrees of freedom.
-        given: usize,
-    },
+    InSpace { given: usize },
     /// A study in space of rings in their plane.
     #[error("bearing.degrees_of_freedom = 2: this study is of rings in space, 3 or 5")]
     InThePlane,
@@ -63,25 +54,16 @@ pub enum StaticError {
         "bearing.degrees_of_freedom = {given} with a shaft that is fixed or that a host moves: nothing says where \
          along the axis it stands; modes in space are of a shaft that moves by itself, shaft.motion = \"internal\""
     )]
-    HeldInSpace {
-        /// Degrees of freedom.
-        given: usize,
-    },
+    HeldInSpace { given: usize },
     /// A load of nothing has no direction.
     #[error("the load on the bearing is {load:?} N: it must be finite and not 0; give shaft.load_n, or a load")]
-    NoLoad {
-        /// Load (N).
-        load: [f64; 2],
-    },
+    NoLoad { load: [f64; 2] },
     /// A healthy bearing was asked for its defect.
     #[error("the scene has no defect of a ring: a critical load belongs to one")]
     NoDefect,
     /// No element sinks into the defect.
     #[error("elements sink {depth_um} um into this defect: it must be above 0 to have a critical load")]
-    NoDepth {
-        /// Greatest depth of their path (µm).
-        depth_um: f64,
-    },
+    NoDepth { depth_um: f64 },
 }
 
 /// Refuses rings that move along the axis or tilt.

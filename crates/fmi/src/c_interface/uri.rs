@@ -16,12 +16,7 @@ pub(crate) enum UriError {
     NotAFile(String),
     /// A file on another machine.
     #[error("resource location \"{uri}\": it names the host \"{host}\"; resources must lie on this machine")]
-    OtherHost {
-        /// The URI.
-        uri: String,
-        /// The host in it.
-        host: String,
-    },
+    OtherHost { uri: String, host: String },
     /// A relative path, or a URI, where FMI 3.0 has a path.
     #[error("resourcePath \"{0}\": it must be an absolute path, as in /dir/resources/")]
     NotAbsolute(String),

@@ -32,29 +32,16 @@ pub(crate) enum BlobError {
     Foreign,
     /// Another layout.
     #[error("serialized state of format {found}: this FMU reads format {FORMAT}; serialize it anew with this version")]
-    Format {
-        /// Format found.
-        found: u32,
-    },
+    Format { found: u32 },
     /// Shorter or longer than it was.
     #[error("serialized state of {given} bytes: it was written with {written}")]
-    Length {
-        /// Number of bytes given.
-        given: u64,
-        /// Number of bytes that it was written with.
-        written: u64,
-    },
+    Length { given: u64, written: u64 },
     /// Changed since it was written.
     #[error("serialized state: its checksum is wrong, it was damaged")]
     Damaged,
     /// Of another model.
     #[error("serialized state of the FMU with GUID {found}: this one has {own}")]
-    OtherModel {
-        /// GUID found.
-        found: String,
-        /// GUID of this FMU.
-        own: String,
-    },
+    OtherModel { found: String, own: String },
     /// The checksum is right, but the contents cannot be a state of this model.
     #[error("serialized state: its contents are not what a run of this model leaves behind: {0}")]
     Contents(&'static str),

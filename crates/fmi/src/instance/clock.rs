@@ -54,48 +54,22 @@ pub(crate) enum ClockError {
     Time(f64),
     /// Not a number, infinite, or not after the start.
     #[error("stop time {stop:?} s: it must be finite and after the start time {start:?} s")]
-    Stop {
-        /// Stop time given.
-        stop: f64,
-        /// Start time given.
-        start: f64,
-    },
+    Stop { stop: f64, start: f64 },
     /// Not where the instance is.
     #[error("communication point {point:?} s: the instance is at {time:?} s (allowed difference {allowed:e} s)")]
-    Point {
-        /// Point given.
-        point: f64,
-        /// Point reached.
-        time: f64,
-        /// Difference that would pass for rounding.
-        allowed: f64,
-    },
+    Point { point: f64, time: f64, allowed: f64 },
     /// A little off in every step.
     #[error(
         "communication point {point:?} s: the start and all steps since are {drift:e} s away from it \
          (allowed difference {allowed:e} s)"
     )]
-    Drift {
-        /// Point given.
-        point: f64,
-        /// How far it is beyond them.
-        drift: f64,
-        /// Difference that would pass for rounding.
-        allowed: f64,
-    },
+    Drift { point: f64, drift: f64, allowed: f64 },
     /// Zero, negative, not a number or infinite.
     #[error("communication step size {0:?} s: it must be finite and above 0")]
     Step(f64),
     /// Past the stop time.
     #[error("communication step from {point:?} s by {step:?} s: it ends past the stop time {stop:?} s")]
-    PastStop {
-        /// Point given.
-        point: f64,
-        /// Step given.
-        step: f64,
-        /// Stop time.
-        stop: f64,
-    },
+    PastStop { point: f64, step: f64, stop: f64 },
 }
 
 impl Clock {

@@ -17,12 +17,7 @@ use libc::c_int;
 pub(crate) enum Failure {
     /// The function may not be called in this mode.
     #[error("not allowed in mode \"{}\", only in: {function}", .mode.name(function.version))]
-    OutOfMode {
-        /// Mode of the instance.
-        mode: Mode,
-        /// The function, with the modes in which it is allowed.
-        function: &'static Function,
-    },
+    OutOfMode { mode: Mode, function: &'static Function },
     /// A null pointer where there must be none.
     #[error("argument {0} is NULL")]
     NullPointer(&'static str),
@@ -34,14 +29,7 @@ pub(crate) enum Failure {
     NotAnAddress(&'static str),
     /// An array longer than any that makes sense.
     #[error("argument {name} has {count} elements, at most {limit} are accepted")]
-    TooLong {
-        /// The argument.
-        name: &'static str,
-        /// Its length.
-        count: usize,
-        /// Longest accepted.
-        limit: usize,
-    },
+    TooLong { name: &'static str, count: usize, limit: usize },
     /// An array to be written lies over one to be read.
     #[error("input and output arrays overlap")]
     Overlap,
@@ -70,33 +58,13 @@ pub(crate) enum Failure {
     UnknownReference(u32),
     /// Another number of values than the variables have.
     #[error("{name} = {given}: the variables referred to have {needed} values")]
-    ValueCount {
-        /// The argument.
-        name: &'static str,
-        /// Number given.
-        given: usize,
-        /// Number needed.
-        needed: usize,
-    },
+    ValueCount { name: &'static str, given: usize, needed: usize },
     /// Arrays of another length than there are dependencies.
     #[error("{name} = {given}: the variable has {needed} dependencies now")]
-    DependencyCount {
-        /// The argument.
-        name: &'static str,
-        /// Number given.
-        given: usize,
-        /// Number needed.
-        needed: usize,
-    },
+    DependencyCount { name: &'static str, given: usize, needed: usize },
     /// A variable that an intermediate update may not touch.
     #[error("variable {name} cannot be {what} in an intermediate update: {why}")]
-    NotIntermediate {
-        name: String,
-        /// What was tried.
-        what: &'static str,
-        /// The reason.
-        why: &'static str,
-    },
+    NotIntermediate { name: String, what: &'static str, why: &'static str },
     /// The host's function for intermediate updates has unwound.
     #[error("intermediateUpdate did not return: {0}; the step is lost")]
     UpdateUnwound(String),
@@ -114,14 +82,7 @@ pub(crate) enum Failure {
     FailedInUpdate(f64),
     /// A time for an early return that lies outside the step.
     #[error("earlyReturnTime {at:?} s: it must lie between {from:?} s and {to:?} s, the ends of the step")]
-    EarlyReturnTime {
-        /// Time given.
-        at: f64,
-        /// Communication point.
-        from: f64,
-        /// End of the step.
-        to: f64,
-    },
+    EarlyReturnTime { at: f64, from: f64, to: f64 },
     /// Initialization without an experiment.
     #[error("call fmi2SetupExperiment first")]
     NotSetUp,
@@ -142,13 +103,7 @@ pub(crate) enum Failure {
     Recording(#[from] RecordingError),
     /// Samples that could not be stored when a run ended.
     #[error("{cause}. {} {fate}", unstored(.samples))]
-    Unstored {
-        cause: RecordingError,
-        /// Those samples.
-        samples: Option<Unstored>,
-        /// What becomes of them.
-        fate: &'static str,
-    },
+    Unstored { cause: RecordingError, samples: Option<Unstored>, fate: &'static str },
     /// A result that is not a number, or infinite.
     #[error("variable {name} is {value}; it is not handed out. Check the inputs and the step size")]
     NotFinite { name: String, value: f64 },
