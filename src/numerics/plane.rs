@@ -16,6 +16,12 @@ pub fn turned<T: Scalar>(v: Vector<T>) -> Vector<T> {
     Vector::new(-v.y, v.x)
 }
 
+/// Parts of `v` along a direction and counter-clockwise of it.
+#[inline(always)]
+pub fn parts(v: Vector, direction: Vector) -> [f64; 2] {
+    [v.dot(&direction), v.dot(&turned(direction))]
+}
+
 /// `v` turned counter-clockwise by an angle with this sine and cosine.
 #[inline(always)]
 pub fn turned_by(v: Vector, sin: f64, cos: f64) -> Vector {

@@ -6,7 +6,7 @@ use crate::contact::groove::{Axis, GrooveContact};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
 use crate::numerics::number::Scalar;
-use crate::numerics::plane::{Vector, turned};
+use crate::numerics::plane::{Vector, parts};
 
 impl Model {
     /// Where element `j` at path `u` in direction `e_r` is seen from the inner ring, whose centre is `offset` before
@@ -20,7 +20,7 @@ impl Model {
         e_r: Vector,
         clearance: f64,
     ) -> InnerGap<f64> {
-        let offset = [offset.dot(&e_r), offset.dot(&turned(e_r))];
+        let offset = parts(offset, e_r);
         InnerGap::of(self.centre_radius(j) + u, u, offset, clearance - self.larger(j), false)
     }
 
@@ -45,8 +45,8 @@ impl Model {
         };
         let [inner, outer] = self.rings_in_space(excitation, tau, state, None);
         let e_r = self.direction_with(j, &now.cage, lead);
-        let seen = |v: Vector| [v.dot(&e_r), v.dot(&turned(e_r))];
-        let ([along, across], tilt) = (seen(now.offset()), seen(Vector::new(inner.position[3], inner.position[4])));
+        let ([along, across], tilt) =
+            (parts(now.offset(), e_r), parts(Vector::new(inner.position[3], inner.position[4]), e_r));
         let rho = self.outer_centre_radius + state[j];
         let q = [rho + along, across, state[v + j] + outer.position[2] - inner.position[2]];
         let contact = GrooveContact::of(&space.grooves[0], q, &Axis::tilted(tilt, [0.0; 2]));

@@ -9,7 +9,7 @@ use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{ElementBlock, Frames, Kinematics, Model, SMOOTH, moved};
 use crate::numerics::lanes::{Kernel, WIDEST, Wide};
-use crate::numerics::plane::{Vector, turned, turned_by};
+use crate::numerics::plane::{Vector, parts, turned, turned_by};
 
 impl Model {
     /// The outer contacts that are not those of the smooth rigid raceway; gives their force on the outer ring.
@@ -95,13 +95,13 @@ impl Model {
             let [angle, omega] = self.turning(j, now, elements);
             *lookups += 1;
             let [law, _] = self.own_contacts(j);
-            let (rho, seen) = (self.centre_radius(j) + u, |of: Vector| [of.dot(&e_r), of.dot(&turned(e_r))]);
+            let rho = self.centre_radius(j) + u;
             let place = InnerPlace {
                 at: Place { element: j, cells, u, angle, frames, film, curved: true },
                 clearance: clearance - self.larger(j),
                 rho,
-                offset: seen(now.offset()),
-                q_rate: InnerGap::q_rate(seen(now.drift()), path_rate, rho, omega),
+                offset: parts(now.offset(), e_r),
+                q_rate: InnerGap::q_rate(parts(now.drift(), e_r), path_rate, rho, omega),
             };
             let unsolved =
                 |at: &Meeting, cause| self.without_answer(RacewaySide::Inner, at, now, frames, cause, unsolved);

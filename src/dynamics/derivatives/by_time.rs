@@ -7,30 +7,21 @@ use super::jacobian::{Jacobian, bodies};
 use super::variation::changing_vector;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
-    BODIES, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, RingInSpace, SPATIAL_BODIES, Space,
+    BODIES, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, SPATIAL_BODIES, Space,
 };
 use crate::dynamics::quasi_static::{Rings, stacked};
-use crate::scene::Motion;
 
 impl Variation {
     /// Makes it that by time at `tau`, all that has a state standing still.
     fn set_by_time(&mut self, model: &Model, now: &FramedKinematics, excitation: &Excitation, tau: f64) {
         (self.cage_angle, self.cage_speed) = (now.cage.speed, now.cage.acceleration);
         (self.film_speed, self.frames) = (excitation.relative_speed.rate_at(tau), excitation.frame_rates(tau));
-        self.beyond = model.prescribed_rates(excitation, tau);
+        self.beyond = [0, 1].map(|ring| model.prescribed_ring_rates(excitation, ring, tau));
         [self.shaft, self.housing] = self.beyond.map(|ring| ring.in_plane());
     }
 }
 
 impl Model {
-    /// Velocity and acceleration of each ring as the host prescribes them; 0 of one that it does not move.
-    fn prescribed_rates(&self, excitation: &Excitation, tau: f64) -> [RingInSpace; 2] {
-        [(0, &self.shaft), (1, &self.housing)].map(|(ring, of)| match of.motion {
-            Motion::Host => excitation.prescribed_rates(ring, tau),
-            Motion::Internal | Motion::Fixed => RingInSpace::default(),
-        })
-    }
-
     /// Puts the derivative of the right-hand side by time at constant state into [`Jacobian::by_time`]. What elements
     /// in balance at every instant make of it is left out: no method asks for it.
     pub fn derivative_by_time(

@@ -14,7 +14,7 @@ use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, FramedKinematics, Layout, Model, RINGS, RingInSpace, Space,
 };
-use crate::dynamics::spatial::BallMotion;
+use crate::dynamics::spatial::{BallMotion, Balls};
 use nalgebra::{DMatrix, DVector};
 
 /// Rounding of distances of some 20 mm (m).
@@ -179,7 +179,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) -> DVector<f64> {
         let (space, rings) = (given.space, given.rings_at(x));
-        let (cells, balls) = (given.cells, (balls, true));
+        let (cells, balls) = (given.cells, Balls { places: balls, searched: true });
         let tangent = self.spatial_tangent::<{ 2 + RINGS }>(space, &given.still, &rings, cells, balls, shortcuts);
         let longest = longest_step(iteration);
         let (turning, loose) = (balance.contact_sum / self.outer_centre_radius, balance.residual() / longest);

@@ -46,8 +46,22 @@ impl Model {
                 position: Vector::new(derivative[i], derivative[i + 1]),
                 velocity: Vector::new(derivative[i + 2], derivative[i + 3]),
             },
-            None => excitation.prescribed_rates(ring, tau).in_plane(),
+            None => self.prescribed_ring_rates(excitation, ring, tau).in_plane(),
         })
+    }
+
+    /// Velocity and acceleration of the inner ring (0) or the outer (1) as the host prescribes them; 0 of one that it
+    /// does not move.
+    pub(in crate::dynamics) fn prescribed_ring_rates(
+        &self,
+        excitation: &Excitation,
+        ring: usize,
+        tau: f64,
+    ) -> RingInSpace {
+        match [&self.shaft, &self.housing][ring].motion {
+            Motion::Host => excitation.prescribed_rates(ring, tau),
+            Motion::Internal | Motion::Fixed => RingInSpace::default(),
+        }
     }
 
     /// Both rings at `tau`, their positions moved on by the time that is still `ahead` (s).
@@ -65,14 +79,12 @@ impl Model {
 
     /// Velocity and acceleration of both rings in space.
     pub fn ring_rates_in_space(&self, excitation: &Excitation, tau: f64, derivative: &[f64]) -> [RingInSpace; 2] {
-        let rings = [(0, self.layout.shaft, &self.shaft), (1, self.layout.housing, &self.housing)];
-        rings.map(|(number, start, ring)| match start {
+        [(0, self.layout.shaft), (1, self.layout.housing)].map(|(ring, start)| match start {
             Some(start) => RingInSpace {
                 position: Layout::POSITIONS.map(|slot| derivative[start + slot]),
                 velocity: Layout::VELOCITIES.map(|slot| derivative[start + slot]),
             },
-            None if ring.motion == Motion::Host => excitation.prescribed_rates(number, tau),
-            None => RingInSpace::default(),
+            None => self.prescribed_ring_rates(excitation, ring, tau),
         })
     }
 }

@@ -29,7 +29,7 @@ impl PathSearch {
     }
 
     /// Where to look after path `u` (m), at which the element is pushed outwards with `force` (N) and Newton's method
-    /// goes to `newton` (m); nowhere if no number is left between the brackets, or none within a metre.
+    /// goes to `newton` (m); nowhere if nothing is left between the brackets, or none within a metre.
     pub(in crate::dynamics) fn next(&mut self, u: f64, force: f64, newton: f64) -> Option<f64> {
         if force > 0.0 {
             self.low = u

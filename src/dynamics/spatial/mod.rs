@@ -18,3 +18,4 @@ mod tangent;
 pub(in crate::dynamics) use ball::{Ball, axis_of};
 pub(in crate::dynamics) use ball_chained::MOVING;
 pub(in crate::dynamics) use ball_contacts::{BallForces, BallMotion};
+pub(in crate::dynamics) use tangent::Balls;

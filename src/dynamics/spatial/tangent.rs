@@ -4,22 +4,30 @@ use super::ball_contacts::BallMotion;
 use crate::dynamics::contacts::{Record, Shortcuts};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, Space};
 
+/// Where balls are in balance, and who asks.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Balls<'a> {
+    /// u and v of each (m).
+    pub(in crate::dynamics) places: &'a [[f64; 2]],
+    /// Whether a search does: without curvatures along surfaces and with contacts as [tried](BallMotion::tried).
+    pub(in crate::dynamics) searched: bool,
+}
+
 impl Model {
     /// Jacobian of the forces on both rings by both rings' coordinates (N/m, N/rad, N m/m, N m/rad) with the balls in
-    /// balance at `balls`, u and v of each; elastic, everything standing where it is. If it is for a search, without
-    /// curvatures along surfaces and with contacts as [tried](BallMotion::tried). By the first coordinates of the rings
-    /// alone, two fewer than `K`.
+    /// balance; elastic, everything standing where it is. By the first coordinates of the rings alone, two fewer than
+    /// `K`.
     pub(in crate::dynamics) fn spatial_tangent<const K: usize>(
         &self,
         space: &Space,
         now: &FramedKinematics,
         rings: &[RingInSpace; 2],
         cells: &Cells,
-        (balls, searched): (&[[f64; 2]], bool),
+        Balls { places, searched }: Balls,
         shortcuts: &mut Shortcuts,
     ) -> [[f64; RINGS]; RINGS] {
         let mut sum = [[0.0; RINGS]; RINGS];
-        for (j, &place) in balls.iter().enumerate() {
+        for (j, &place) in places.iter().enumerate() {
             let (at, _) = self.ball_motion(j, now, rings, shortcuts);
             let at = BallMotion { curved: !searched, tried: searched, ..at };
             let (omega, in_cells) = (at.omega, self.cells_of(cells, j));
@@ -43,9 +51,9 @@ impl Model {
         let space = self.space.as_ref()?;
         let rings = self.rings_in_space(excitation, 0.0, state, None);
         let now = self.kinematics(excitation, 0.0, state);
-        let balls = self.balls_of(contacts.paths(self, state));
-        let tangent =
-            self.spatial_tangent::<{ 2 + COORDINATES }>(space, &now, &rings, cells, (&balls, false), shortcuts);
+        let places = self.balls_of(contacts.paths(self, state));
+        let balls = Balls { places: &places, searched: false };
+        let tangent = self.spatial_tangent::<{ 2 + COORDINATES }>(space, &now, &rings, cells, balls, shortcuts);
         Some(std::array::from_fn(|row| std::array::from_fn(|column| -tangent[row][column])))
     }
 
