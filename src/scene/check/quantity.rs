@@ -29,6 +29,14 @@ pub struct RingQuantities {
     pub axial_stiffness: Quantity,
 }
 
+impl RingQuantities {
+    /// All of them.
+    pub fn all(&self) -> [&Quantity; 7] {
+        let Self { load, mass, damping, stiffness, preload, axial_damping, axial_stiffness } = self;
+        [load, mass, damping, stiffness, preload, axial_damping, axial_stiffness]
+    }
+}
+
 impl Quantity {
     /// Checks a value in SI units.
     pub fn check(&self, si: f64) -> Result<(), SceneError> {
@@ -83,36 +91,107 @@ pub const fn quantity(quantity: &'static str, key: &'static str, per_si: f64, lo
 const DEG: f64 = 180.0 / PI;
 const HZ: f64 = 1.0 / TAU;
 
-pub const GRAVITY: Quantity = quantity("gravity", "gravity_m_s2", 1.0, Inclusive(-1e6), Inclusive(1e6));
-pub const ELEMENT_COUNT: Quantity =
-    quantity("number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0));
-pub const ELEMENT_DIAMETER: Quantity =
-    quantity("element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3));
-pub const DIAMETER_OFFSET: Quantity = quantity(
-    "diameter of an element beyond the nominal one",
-    "bearing.element_diameter_offsets_um",
-    1e6,
-    Inclusive(-2e3),
-    Inclusive(2e3),
-);
-pub const DIAMETER_RMS: Quantity = quantity(
-    "root mean square of the diameters about the nominal one",
-    "bearing.element_diameter_rms_um",
-    1e6,
-    Inclusive(0.0),
-    Inclusive(2e3),
-);
-pub const ROLLER_LENGTH: Quantity =
-    quantity("effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3));
-pub const ROLLER_LAMINAE: Quantity =
-    quantity("number of laminae of a roller", "bearing.roller_laminae", 1.0, Inclusive(10.0), Inclusive(1000.0));
+/// Constants of quantities that stand in a scene file under one key in one unit, and the list of all of them.
+macro_rules! of_keys {
+    ($($(#[$doc:meta])* $name:ident: $quantity:expr, $key:expr, $per_si:expr, $low:expr, $high:expr;)*) => {
+        $($(#[$doc])* pub const $name: Quantity = quantity($quantity, $key, $per_si, $low, $high);)*
+        /// Those of one key in one unit, but for those of rings.
+        pub static OF_KEYS: &[&Quantity] = &[$(&$name),*];
+    };
+}
+
+of_keys! {
+    GRAVITY: "gravity", "gravity_m_s2", 1.0, Inclusive(-1e6), Inclusive(1e6);
+    ELEMENT_COUNT: "number of elements", "bearing.element_count", 1.0, Inclusive(1.0), Inclusive(1000.0);
+    ELEMENT_DIAMETER: "element diameter", "bearing.element_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e3);
+    DIAMETER_OFFSET: "diameter of an element beyond the nominal one",
+        "bearing.element_diameter_offsets_um", 1e6, Inclusive(-2e3), Inclusive(2e3);
+    DIAMETER_RMS: "root mean square of the diameters about the nominal one",
+        "bearing.element_diameter_rms_um", 1e6, Inclusive(0.0), Inclusive(2e3);
+    ROLLER_LENGTH: "effective roller length", "bearing.roller_length_mm", 1e3, Inclusive(0.003), Inclusive(6e3);
+    ROLLER_LAMINAE: "number of laminae of a roller", "bearing.roller_laminae", 1.0, Inclusive(10.0), Inclusive(1000.0);
+    PITCH_DIAMETER: "pitch diameter", "bearing.pitch_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e4);
+    CLEARANCE: "radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9);
+    /// Steeper ones are those of thrust bearings.
+    CONTACT_ANGLE: "contact angle", "bearing.contact_angle_deg", DEG, Inclusive(-60.0), Inclusive(60.0);
+    OPERATING_ANGLE: "operating contact angle", "bearing.operating_angle_deg", DEG, Inclusive(-70.0), Inclusive(70.0);
+    SHOULDER_INNER: "height of the inner ring's shoulder",
+        "bearing.shoulder_inner_mm", 1e3, Exclusive(0.0), Inclusive(2e3);
+    SHOULDER_OUTER: "height of the outer ring's shoulder",
+        "bearing.shoulder_outer_mm", 1e3, Exclusive(0.0), Inclusive(2e3);
+    YOUNGS_MODULUS: "Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4);
+    POISSONS_RATIO: "Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5);
+    DENSITY: "density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5);
+    ELEMENT_MASS: "mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9);
+    HERTZ_INNER: "Hertz constant of the inner contact",
+        "bearing.hertz_inner_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15);
+    HERTZ_OUTER: "Hertz constant of the outer contact",
+        "bearing.hertz_outer_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15);
+    /// 1e-3 m/N are softer than a rubber mount: no ring seat is.
+    OUTER_COMPLIANCE: "outer compliance", "bearing.outer_compliance_m_n", 1.0, Inclusive(0.0), Inclusive(1e-3);
+    DAMPING_CHI: "contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3);
+    ACROSS_DAMPING: "damping across the groove", "contact.across_damping_s_m", 1.0, Inclusive(0.0), Inclusive(1e3);
+    DAMPING_TAU: "contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0);
+    /// From fuel to grease's base oil in the cold.
+    VISCOSITY: "viscosity of the film", "film.viscosity_pa_s", 1.0, Inclusive(1e-4), Inclusive(10.0);
+    PRESSURE_VISCOSITY: "pressure coefficient of the film's viscosity",
+        "film.pressure_viscosity_1_pa", 1.0, Inclusive(0.5e-8), Inclusive(4e-8);
+    FILM_LAYER: "height of the film's oil", "film.layer_um", 1e6, Inclusive(0.01), Inclusive(1e4);
+    LARGEST_FORCE: "largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9);
+    /// Fewer are no grid, more take minutes.
+    CONTACT_CELLS: "number of cells of the contact grid", "contact.cells", 1.0, Inclusive(8.0), Inclusive(256.0);
+    /// Finer than the steps of any grid.
+    MAP_ACCURACY: "accuracy of the contact map", "contact.map_accuracy", 1.0, Inclusive(1e-5), Inclusive(0.1);
+    CAGE_SLIP: "cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0);
+    CAGE_SPACING: "offset of an element in the cage", "cage.spacing_deg", DEG, Inclusive(-90.0), Inclusive(90.0);
+    CAGE_SPACING_RMS: "offsets of elements in the cage", "cage.spacing_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0);
+    CAGE_JITTER: "jitter of the elements in the cage", "cage.jitter_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0);
+    CAGE_WANDER: "wander of the cage's speed", "cage.wander", 1.0, Inclusive(0.0), Inclusive(0.1);
+    INITIAL_ANGLE: "initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
+    SHAFT_INITIAL_ANGLE: "initial angle of the shaft",
+        "shaft.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
+    HOUSING_INITIAL_ANGLE: "initial angle of the housing",
+        "housing.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
+    /// Beyond it the track is nowhere near the pit of any ball.
+    TILT: "tilt of the defect off the rolling track", "defect.tilt_deg", DEG, Inclusive(-90.0), Inclusive(90.0);
+    DEFECT_ANGLE: "defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
+    SPALL_DEPTH: "spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9);
+    EDGE_SLOPE: "edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0);
+    WAVINESS_ORDER: "number of waves around a body", "waviness.order", 1.0, Inclusive(1.0), Inclusive(1000.0);
+    WAVINESS_AMPLITUDE: "amplitude of waviness", "waviness.amplitude_um", 1e6, Inclusive(0.0), Inclusive(1e3);
+    WAVINESS_ANGLE: "angle of a crest of waviness", "waviness.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
+    LOAD_MOMENT: "moment on the shaft", "shaft.load_moment_n_m", 1.0, Inclusive(-1e9), Inclusive(1e9);
+    TRANSVERSE_INERTIA: "transverse inertia of the shaft",
+        "shaft.transverse_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9);
+    POLAR_INERTIA: "polar inertia of the shaft", "shaft.polar_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9);
+    TILT_DAMPING: "tilt damping of the shaft", "shaft.tilt_damping_n_m_s", 1.0, Inclusive(0.0), Inclusive(1e12);
+    TILT_STIFFNESS: "tilt stiffness of the shaft", "shaft.tilt_stiffness_n_m_rad", 1.0, Inclusive(0.0), Inclusive(1e15);
+    /// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
+    HOUSING_SPEED: "speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4);
+    SPEED: "shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4);
+    SENSOR_DIRECTION: "sensor direction", "sensor.direction_deg", DEG, Inclusive(-1e3), Inclusive(1e3);
+    SENSOR_MASS: "sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9);
+    SENSOR_STIFFNESS: "sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15);
+    SENSOR_DAMPING: "sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12);
+    SENSOR_MODE_FREQUENCY: "frequency of a sensor's mode",
+        "sensor.mode.frequency_hz", 1.0, Inclusive(1.0), Inclusive(1e6);
+    SENSOR_MODE_DAMPING_RATIO: "damping ratio of a sensor's mode",
+        "sensor.mode.damping_ratio", 1.0, Exclusive(0.0), Inclusive(1.0);
+    SENSOR_MODE_QUADRATURE_GAIN: "quadrature gain of a sensor's mode",
+        "sensor.mode.quadrature_gain", 1.0, Inclusive(-1e3), Inclusive(1e3);
+    SENSOR_MODE_GAIN: "gain of a sensor's mode", "sensor.mode.gain", 1.0, Inclusive(-1e3), Inclusive(1e3);
+    TOLERANCE: "tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1);
+    MAX_STEPS: "most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15);
+    RECORDER_RATE: "recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7);
+    STOP: "stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9);
+    STEP: "communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9);
+}
+
 /// Of rolling bearing steels.
 pub const STEELS_MODULUS: Quantity =
     quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(200.0), Inclusive(212.0));
 pub const STEELS_RATIO: Quantity =
     quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Inclusive(0.3), Inclusive(0.3));
-pub const PITCH_DIAMETER: Quantity =
-    quantity("pitch diameter", "bearing.pitch_diameter_mm", 1e3, Inclusive(0.01), Inclusive(2e4));
 pub const CONFORMITY_INNER: Quantity = quantity(
     "groove conformity of the inner ring",
     "bearing.groove_diameter_mm or bearing.conformity_inner",
@@ -127,23 +206,6 @@ pub const CONFORMITY_OUTER: Quantity = quantity(
     Inclusive(SMALLEST_CONFORMITY),
     Inclusive(1e3),
 );
-pub const CLEARANCE: Quantity =
-    quantity("radial clearance", "bearing.radial_clearance_um", 1e6, Inclusive(-1e9), Inclusive(1e9));
-/// Steeper ones are those of thrust bearings.
-pub const CONTACT_ANGLE: Quantity =
-    quantity("contact angle", "bearing.contact_angle_deg", DEG, Inclusive(-60.0), Inclusive(60.0));
-pub const OPERATING_ANGLE: Quantity =
-    quantity("operating contact angle", "bearing.operating_angle_deg", DEG, Inclusive(-70.0), Inclusive(70.0));
-pub const SHOULDER_INNER: Quantity =
-    quantity("height of the inner ring's shoulder", "bearing.shoulder_inner_mm", 1e3, Exclusive(0.0), Inclusive(2e3));
-pub const SHOULDER_OUTER: Quantity =
-    quantity("height of the outer ring's shoulder", "bearing.shoulder_outer_mm", 1e3, Exclusive(0.0), Inclusive(2e3));
-pub const YOUNGS_MODULUS: Quantity =
-    quantity("Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4));
-pub const POISSONS_RATIO: Quantity =
-    quantity("Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5));
-pub const DENSITY: Quantity =
-    quantity("density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5));
 pub const DENSITY_BY_MASS: Quantity = quantity(
     "density of the elements in kg/m3, by their mass",
     "bearing.element_mass_g",
@@ -151,74 +213,12 @@ pub const DENSITY_BY_MASS: Quantity = quantity(
     Exclusive(0.0),
     Inclusive(1e5),
 );
-pub const ELEMENT_MASS: Quantity =
-    quantity("mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9));
-pub const HERTZ_INNER: Quantity =
-    quantity("Hertz constant of the inner contact", "bearing.hertz_inner_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
-pub const HERTZ_OUTER: Quantity =
-    quantity("Hertz constant of the outer contact", "bearing.hertz_outer_n_m1_5", 1.0, Inclusive(1.0), Inclusive(1e15));
-/// 1e-3 m/N are softer than a rubber mount: no ring seat is.
-pub const OUTER_COMPLIANCE: Quantity =
-    quantity("outer compliance", "bearing.outer_compliance_m_n", 1.0, Inclusive(0.0), Inclusive(1e-3));
-pub const DAMPING_CHI: Quantity =
-    quantity("contact damping", "contact.damping_chi_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
-pub const ACROSS_DAMPING: Quantity =
-    quantity("damping across the groove", "contact.across_damping_s_m", 1.0, Inclusive(0.0), Inclusive(1e3));
-pub const DAMPING_TAU: Quantity =
-    quantity("contact damping", "contact.damping_tau_s", 1.0, Inclusive(0.0), Inclusive(1.0));
-/// From fuel to grease's base oil in the cold.
-pub const VISCOSITY: Quantity =
-    quantity("viscosity of the film", "film.viscosity_pa_s", 1.0, Inclusive(1e-4), Inclusive(10.0));
-pub const PRESSURE_VISCOSITY: Quantity = quantity(
-    "pressure coefficient of the film's viscosity",
-    "film.pressure_viscosity_1_pa",
-    1.0,
-    Inclusive(0.5e-8),
-    Inclusive(4e-8),
-);
-pub const FILM_LAYER: Quantity =
-    quantity("height of the film's oil", "film.layer_um", 1e6, Inclusive(0.01), Inclusive(1e4));
-pub const LARGEST_FORCE: Quantity =
-    quantity("largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9));
-/// Fewer are no grid, more take minutes.
-pub const CONTACT_CELLS: Quantity =
-    quantity("number of cells of the contact grid", "contact.cells", 1.0, Inclusive(8.0), Inclusive(256.0));
-/// Finer than the steps of any grid.
-pub const MAP_ACCURACY: Quantity =
-    quantity("accuracy of the contact map", "contact.map_accuracy", 1.0, Inclusive(1e-5), Inclusive(0.1));
-pub const CAGE_SLIP: Quantity = quantity("cage slip", "cage.slip", 1.0, Inclusive(0.0), Inclusive(1.0));
-pub const CAGE_SPACING: Quantity =
-    quantity("offset of an element in the cage", "cage.spacing_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
-pub const CAGE_SPACING_RMS: Quantity =
-    quantity("offsets of elements in the cage", "cage.spacing_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
-pub const CAGE_JITTER: Quantity =
-    quantity("jitter of the elements in the cage", "cage.jitter_rms_deg", DEG, Inclusive(0.0), Inclusive(90.0));
-pub const CAGE_WANDER: Quantity =
-    quantity("wander of the cage's speed", "cage.wander", 1.0, Inclusive(0.0), Inclusive(0.1));
-pub const INITIAL_ANGLE: Quantity =
-    quantity("initial cage angle", "cage.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 pub const SPIN_SLIP: Quantity =
     quantity("slip of the elements' spin", "element.spin_slip", 1.0, Inclusive(-1.0), Inclusive(1.0));
-pub const SHAFT_INITIAL_ANGLE: Quantity =
-    quantity("initial angle of the shaft", "shaft.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
-pub const HOUSING_INITIAL_ANGLE: Quantity =
-    quantity("initial angle of the housing", "housing.initial_angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
-/// Beyond it the track is nowhere near the pit of any ball.
-pub const TILT: Quantity =
-    quantity("tilt of the defect off the rolling track", "defect.tilt_deg", DEG, Inclusive(-90.0), Inclusive(90.0));
-pub const DEFECT_ANGLE: Quantity = quantity("defect angle", "defect.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 pub const SPALL_LENGTH: Quantity =
     quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
-pub const SPALL_DEPTH: Quantity = quantity("spall depth", "defect.depth_um", 1e6, Exclusive(0.0), Inclusive(1e9));
-pub const EDGE_SLOPE: Quantity = quantity("edge slope", "defect.edge_slope_deg", DEG, Exclusive(0.0), Inclusive(90.0));
-pub const WAVINESS_ORDER: Quantity =
-    quantity("number of waves around a body", "waviness.order", 1.0, Inclusive(1.0), Inclusive(1000.0));
-pub const WAVINESS_AMPLITUDE: Quantity =
-    quantity("amplitude of waviness", "waviness.amplitude_um", 1e6, Inclusive(0.0), Inclusive(1e3));
-pub const WAVINESS_ANGLE: Quantity =
-    quantity("angle of a crest of waviness", "waviness.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3));
 /// Limits are those that a host finds in the model description: what a scene may say a host may set.
-pub const SHAFT: RingQuantities = RingQuantities {
+pub static SHAFT: RingQuantities = RingQuantities {
     load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
     mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
@@ -239,7 +239,7 @@ pub const SHAFT: RingQuantities = RingQuantities {
         Inclusive(1e15),
     ),
 };
-pub const HOUSING: RingQuantities = RingQuantities {
+pub static HOUSING: RingQuantities = RingQuantities {
     load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
     mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
     damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
@@ -260,45 +260,12 @@ pub const HOUSING: RingQuantities = RingQuantities {
         Inclusive(1e15),
     ),
 };
-pub const LOAD_MOMENT: Quantity =
-    quantity("moment on the shaft", "shaft.load_moment_n_m", 1.0, Inclusive(-1e9), Inclusive(1e9));
-pub const TRANSVERSE_INERTIA: Quantity =
-    quantity("transverse inertia of the shaft", "shaft.transverse_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9));
-pub const POLAR_INERTIA: Quantity =
-    quantity("polar inertia of the shaft", "shaft.polar_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9));
-pub const TILT_DAMPING: Quantity =
-    quantity("tilt damping of the shaft", "shaft.tilt_damping_n_m_s", 1.0, Inclusive(0.0), Inclusive(1e12));
-pub const TILT_STIFFNESS: Quantity =
-    quantity("tilt stiffness of the shaft", "shaft.tilt_stiffness_n_m_rad", 1.0, Inclusive(0.0), Inclusive(1e15));
-/// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
-pub const HOUSING_SPEED: Quantity =
-    quantity("speed of the housing", "housing.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
-pub const SPEED: Quantity = quantity("shaft speed", "shaft.speed_hz", HZ, Inclusive(-1e4), Inclusive(1e4));
 pub const SENSOR_COUNT: Quantity =
     quantity("number of sensors", "[[sensor]]", 1.0, Inclusive(1.0), Inclusive(MOST_SENSORS as f64));
-pub const SENSOR_DIRECTION: Quantity =
-    quantity("sensor direction", "sensor.direction_deg", 180.0 / PI, Inclusive(-1e3), Inclusive(1e3));
 pub const SENSOR_ELEVATION: Quantity =
-    quantity("elevation of the sensor direction", "sensor.direction", 180.0 / PI, Inclusive(-90.0), Inclusive(90.0));
-pub const SENSOR_MASS: Quantity = quantity("sensor mass", "sensor.mass_kg", 1.0, Inclusive(1e-9), Inclusive(1e9));
-pub const SENSOR_STIFFNESS: Quantity =
-    quantity("sensor stiffness", "sensor.stiffness_n_m", 1.0, Exclusive(0.0), Inclusive(1e15));
-pub const SENSOR_DAMPING: Quantity =
-    quantity("sensor damping", "sensor.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12));
+    quantity("elevation of the sensor direction", "sensor.direction", DEG, Inclusive(-90.0), Inclusive(90.0));
 pub const SENSOR_MODE_COUNT: Quantity =
     quantity("number of a sensor's modes", "[[sensor.mode]]", 1.0, Inclusive(0.0), Inclusive(MOST_SENSOR_MODES as f64));
-pub const SENSOR_MODE_FREQUENCY: Quantity =
-    quantity("frequency of a sensor's mode", "sensor.mode.frequency_hz", 1.0, Inclusive(1.0), Inclusive(1e6));
-pub const SENSOR_MODE_DAMPING_RATIO: Quantity =
-    quantity("damping ratio of a sensor's mode", "sensor.mode.damping_ratio", 1.0, Exclusive(0.0), Inclusive(1.0));
-pub const SENSOR_MODE_QUADRATURE_GAIN: Quantity =
-    quantity("quadrature gain of a sensor's mode", "sensor.mode.quadrature_gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
-pub const SENSOR_MODE_GAIN: Quantity =
-    quantity("gain of a sensor's mode", "sensor.mode.gain", 1.0, Inclusive(-1e3), Inclusive(1e3));
-pub const TOLERANCE: Quantity = quantity("tolerance", "solver.tolerance", 1.0, Inclusive(1e-12), Inclusive(0.1));
-pub const MAX_STEPS: Quantity =
-    quantity("most integration steps", "solver.max_steps", 1.0, Inclusive(1.0), Inclusive(1e15));
-pub const RECORDER_RATE: Quantity = quantity("recorder rate", "recorder.rate_hz", 1.0, Exclusive(0.0), Inclusive(1e7));
 /// Below it the filter would be megabytes long, and what it lets through is no vibration.
 pub const FILTERED_RATE: Quantity = quantity(
     "rate of a recorder that filters",
@@ -307,5 +274,3 @@ pub const FILTERED_RATE: Quantity = quantity(
     Inclusive(100.0),
     Inclusive(1e7),
 );
-pub const STOP: Quantity = quantity("stop time", "experiment.stop_s", 1.0, Exclusive(0.0), Inclusive(1e9));
-pub const STEP: Quantity = quantity("communication step", "experiment.step_s", 1.0, Exclusive(0.0), Inclusive(1e9));

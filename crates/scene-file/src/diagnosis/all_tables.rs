@@ -26,12 +26,18 @@ const NAMES: [&str; 16] = [
     "experiment",
 ];
 
+/// Keys that a bearing cannot be without, unless it is one of the catalogue.
+const NEEDED_OF_A_BEARING: [&str; 5] =
+    ["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"];
+
 /// A table of the scene file.
 pub(super) struct TableOf {
     /// Its name; empty for the file itself.
     pub(super) name: &'static str,
     /// Its keys.
     pub(super) keys: Vec<&'static str>,
+    /// Those that it cannot be without.
+    pub(super) needed: Vec<&'static str>,
     kinds: Vec<Option<Kind>>,
 }
 
@@ -47,10 +53,16 @@ pub(super) fn tables() -> &'static [TableOf] {
     static SCHEMA: LazyLock<Value> = LazyLock::new(|| schema().into());
     static TABLES: LazyLock<Vec<TableOf>> = LazyLock::new(|| {
         let table_of = |name| {
-            let properties = table(&SCHEMA, name).and_then(|table| table["properties"].as_object());
+            let table = table(&SCHEMA, name);
+            let properties = table.and_then(|table| table["properties"].as_object());
             let (keys, kinds) =
                 properties.into_iter().flatten().map(|(key, part)| (key.as_str(), Kind::of(&SCHEMA, part))).unzip();
-            TableOf { name, keys, kinds }
+            let required = table.and_then(|table| table["required"].as_array());
+            let needed = match name {
+                "bearing" => NEEDED_OF_A_BEARING.into(),
+                _ => required.into_iter().flatten().filter_map(Value::as_str).collect(),
+            };
+            TableOf { name, keys, needed, kinds }
         };
         NAMES.map(table_of).into()
     });

@@ -9,19 +9,6 @@ use super::values;
 use crate::spelling::nearest;
 use toml::de::DeValue;
 
-/// Keys that a table cannot be without. The file itself is the table without a name.
-const NEEDED: [(&str, Keys); 9] = [
-    ("", &["name", "bearing", "shaft", "housing"]),
-    ("bearing", &["element_count", "element_diameter_mm", "pitch_diameter_mm", "youngs_modulus_gpa", "poissons_ratio"]),
-    ("film", &["viscosity_pa_s", "pressure_viscosity_1_pa"]),
-    ("defect", &["angle_deg"]),
-    ("waviness", &["order", "amplitude_um", "angle_deg"]),
-    ("shaft", &["motion", "speed_hz"]),
-    ("housing", &["motion"]),
-    ("sensor.mode", &["frequency_hz", "damping_ratio", "gain"]),
-    ("recorder", &["rate_hz"]),
-];
-
 /// Table, two keys of which one is needed, and keys that go without both.
 const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
     ("bearing", GROOVES, &["conformity_outer"]),
@@ -78,7 +65,7 @@ pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn F
     if there.contains(&"catalogue") {
         return findings;
     }
-    for key in needed(name).iter().filter(|key| !there.contains(key)) {
+    for key in of.needed.iter().filter(|key| !there.contains(key)) {
         // Of the file itself all but the name are tables.
         let is_table = name.is_empty() && *key != "name";
         let with = if is_table { needed(key) } else { &[] };
@@ -106,8 +93,8 @@ fn is_table(value: &DeValue<'_>) -> bool {
     value.is_table() || value.as_array().is_some_and(all_tables)
 }
 
-fn needed(table: &str) -> Keys {
-    NEEDED.iter().find(|(name, _)| *name == table).map_or(&[], |(_, keys)| keys)
+fn needed(name: &str) -> Keys {
+    tables().iter().find(|table| table.name == name).map_or(&[], |table| &table.needed)
 }
 
 fn hint(table: &str, keys: Keys, key: &str) -> Hint {
@@ -123,67 +110,23 @@ fn hint(table: &str, keys: Keys, key: &str) -> Hint {
 mod tests {
     use super::super::toml_kinds::Kind;
     use super::*;
-    use crate::tables::*;
+    use crate::tables::BearingTable;
     use brinell::scene::DegreesOfFreedom;
     use serde::Deserialize;
-    use toml::de::{Deserializer, Error};
-
-    fn read<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
-        T::deserialize(Deserializer::parse(text).unwrap())
-    }
 
     #[test]
-    fn tables_say_themselves_which_keys_they_cannot_be_without() {
-        // serde names the first that is missing; the files below lack one each.
-        let lines =
-            |table: &str| needed(table).iter().map(|key| format!("{key} = {}\n", value_of(key))).collect::<Vec<_>>();
-        for TableOf { name: table, keys, .. } in tables().iter().filter(|table| !table.name.is_empty()) {
-            let whole = lines(table);
-            assert_eq!(refusal(table, &whole.concat()), None, "[{table}] asks for more than is listed");
-            for (i, key) in needed(table).iter().enumerate() {
-                assert!(keys.contains(key), "[{table}] has no {key}");
-                let without: String =
-                    whole.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, line)| line.as_str()).collect();
-                let why = refusal(table, &without).unwrap_or_default();
-                assert!(why.contains(key) && why.contains("missing"), "[{table}] without {key}: {why}");
-            }
-        }
-    }
-
-    fn value_of(key: &str) -> &'static str {
-        match key {
-            "element_count" | "order" => "9",
-            "motion" => "\"internal\"",
-            "flank_map" => "true",
-            _ => "1.0",
-        }
-    }
-
-    fn refusal(table: &str, text: &str) -> Option<String> {
-        fn of<T: for<'a> Deserialize<'a>>(text: &str) -> Option<String> {
-            read::<T>(text).err().map(|error| error.message().to_owned())
-        }
-        match table {
-            // What it lacks the catalogue may give, so that its own reader says so.
-            "bearing" => {
-                let more = "conformity_inner = 0.52\nconformity_outer = 0.52\ndensity_kg_m3 = 7800\n";
-                let text = text.to_owned() + more;
-                let keys: BearingTable = read(&text).unwrap();
-                keys.into_bearing(DegreesOfFreedom::Two).err().map(|faults| faults.0[0].to_string())
-            }
-            "contact" => of::<ContactTable>(text),
-            "film" => of::<FilmTable>(text),
-            "cage" => of::<CageTable>(text),
-            "defect" => of::<DefectTable>(text),
-            "waviness" => of::<WavinessTable>(text),
-            "shaft" => of::<ShaftTable>(text),
-            "housing" => of::<HousingTable>(text),
-            "sensor" => of::<SensorTable>(text),
-            "sensor.mode" => of::<SensorModeTable>(text),
-            "probe" => of::<ProbeTable>(text),
-            "solver" => of::<SolverTable>(text),
-            "recorder" => of::<RecorderTable>(text),
-            _ => of::<ExperimentTable>(text),
+    fn a_bearing_cannot_be_without_the_keys_that_it_needs() {
+        let line = |key: &str| format!("{key} = {}\n", if key == "element_count" { "9" } else { "1.0" });
+        let refusal = |without: &str| {
+            let keys = needed("bearing").iter().filter(|key| **key != without).map(|key| line(key));
+            let text = keys.collect::<String>() + "groove_diameter_mm = 1.0\ndensity_kg_m3 = 7800\n";
+            let table = BearingTable::deserialize(toml::de::Deserializer::parse(&text).unwrap()).unwrap();
+            table.into_bearing(DegreesOfFreedom::Two).err().map(|faults| faults.0[0].to_string())
+        };
+        assert_eq!(refusal(""), None);
+        for key in needed("bearing") {
+            let why = refusal(key).unwrap_or_default();
+            assert!(why.starts_with(&format!("bearing.{key} is missing")), "without {key}: {why}");
         }
     }
 

@@ -19,31 +19,6 @@ const YOUNGS_MODULUS_GPA: f64 = 207.0;
 const POISSONS_RATIO: f64 = 0.3;
 const DENSITY_KG_M3: f64 = 7800.0;
 
-/// The keys with what the catalogue adds.
-struct WholeBearing {
-    element: ElementKind,
-    roller_length_mm: Option<f64>,
-    roller_profile: Option<String>,
-    roller_laminae: Option<u32>,
-    element_count: usize,
-    element_diameter_mm: f64,
-    diameters: Diameters,
-    pitch_diameter_mm: f64,
-    groove_diameter_mm: Option<f64>,
-    conformity_inner: Option<f64>,
-    conformity_outer: Option<f64>,
-    clearance: Clearance,
-    youngs_modulus_gpa: f64,
-    poissons_ratio: f64,
-    density_kg_m3: Option<f64>,
-    element_mass_g: Option<f64>,
-    hertz_inner_n_m1_5: Option<f64>,
-    hertz_outer_n_m1_5: Option<f64>,
-    outer_compliance_m_n: f64,
-    element_inertia: ElementInertia,
-    angles: Angles,
-}
-
 /// The keys as they stand in the file.
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -141,108 +116,96 @@ impl BearingTable {
         DegreesOfFreedom::counted(given).ok_or(FreedomError::NoneSuch { given }.into())
     }
 
-    pub(crate) fn into_bearing(self, freedom: DegreesOfFreedom) -> Result<Bearing, Faults> {
-        WholeBearing::try_from(self)?.into_bearing(freedom)
-    }
-}
-
-impl TryFrom<BearingTable> for WholeBearing {
-    type Error = TableFault;
-
     /// What the keys leave open, from the catalogue.
-    fn try_from(keys: BearingTable) -> Result<Self, TableFault> {
-        let named = keys.catalogue.as_deref().map(bearing_named).transpose()?;
-        let kind = named.map(|bearing| match bearing.inside.roller_length {
+    fn with_catalogue(mut self) -> Result<Self, TableFault> {
+        let Some(name) = self.catalogue.as_deref() else { return Ok(self) };
+        let CatalogueBearing { designation: name, inside, .. } =
+            catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() })?;
+        let (kind, elements) = match inside.roller_length {
             None => (ElementKind::Ball, "balls"),
             Some(_) => (ElementKind::CylindricalRoller, "cylindrical rollers"),
-        });
-        if let (Some(bearing), Some((kind, elements)), Some(asked)) = (named, kind, keys.element)
-            && kind != asked
-        {
-            return Err(TableFault::OtherElements { name: bearing.designation, elements });
+        };
+        if *self.element.get_or_insert(kind) != kind {
+            return Err(TableFault::OtherElements { name, elements });
         }
-        let element = keys.element.or(kind.map(|(kind, _)| kind)).unwrap_or_default();
-        let inside = named.map(|bearing| bearing.inside);
-        let from_catalogue = |value: f64| named.map(|_| value);
-        let no_groove = keys.groove_diameter_mm.is_none() && keys.conformity_inner.or(keys.conformity_outer).is_none();
-        let conformity = from_catalogue(CONFORMITY).filter(|_| no_groove && element == ElementKind::Ball);
-        let density = from_catalogue(DENSITY_KG_M3).filter(|_| keys.element_mass_g.is_none());
-        let needed = |value: Option<f64>, key| value.ok_or(missing(key));
-        let count = keys.element_count.or(inside.map(|inside| inside.element_count));
-        let diameter = keys.element_diameter_mm.or(inside.map(|inside| inside.element_diameter));
-        let pitch = keys.pitch_diameter_mm.or(inside.map(|inside| inside.pitch_diameter));
-        let angle = inside.and_then(|inside| inside.contact_angle);
-        if let (Some(bearing), Some(angle), Ok(DegreesOfFreedom::Two)) = (named, angle, keys.freedom()) {
-            return Err(TableFault::AngularInPlane { name: bearing.designation, angle });
+        if let Some(angle) = inside.contact_angle {
+            if let Ok(DegreesOfFreedom::Two) = self.freedom() {
+                return Err(TableFault::AngularInPlane { name, angle });
+            }
+            if self.radial_clearance_um.or(self.internal_clearance_um).or(self.axial_clearance_um).is_none() {
+                self.contact_angle_deg.get_or_insert(angle);
+            }
         }
-        let clearance = keys.clearance(angle)?;
-        let youngs_modulus = keys.youngs_modulus_gpa.or(from_catalogue(YOUNGS_MODULUS_GPA));
-        Ok(Self {
-            element,
-            roller_length_mm: keys.roller_length_mm.or(inside.and_then(|inside| inside.roller_length)),
-            roller_profile: keys.roller_profile,
-            roller_laminae: keys.roller_laminae,
-            element_count: count.ok_or(missing("bearing.element_count"))?,
-            element_diameter_mm: needed(diameter, "bearing.element_diameter_mm")?,
-            diameters: Diameters {
-                offsets_um: keys.element_diameter_offsets_um,
-                rms_um: keys.element_diameter_rms_um,
-                seed: keys.element_diameter_seed,
-            },
-            pitch_diameter_mm: needed(pitch, "bearing.pitch_diameter_mm")?,
-            groove_diameter_mm: keys.groove_diameter_mm,
-            conformity_inner: keys.conformity_inner.or(conformity),
-            conformity_outer: keys.conformity_outer.or(conformity),
-            clearance,
-            youngs_modulus_gpa: needed(youngs_modulus, "bearing.youngs_modulus_gpa")?,
-            poissons_ratio: needed(keys.poissons_ratio.or(from_catalogue(POISSONS_RATIO)), "bearing.poissons_ratio")?,
-            density_kg_m3: keys.density_kg_m3.or(density),
-            element_mass_g: keys.element_mass_g,
-            hertz_inner_n_m1_5: keys.hertz_inner_n_m1_5,
-            hertz_outer_n_m1_5: keys.hertz_outer_n_m1_5,
-            outer_compliance_m_n: keys.outer_compliance_m_n,
-            element_inertia: keys.element_inertia,
-            angles: Angles {
-                operating_angle: keys.operating_angle_deg.map(f64::to_radians),
-                shoulders: [keys.shoulder_inner_mm, keys.shoulder_outer_mm].map(|height| height.map(|mm| mm / 1e3)),
-                gyroscopic: keys.gyroscopic,
-            },
-        })
+        self.roller_length_mm = self.roller_length_mm.or(inside.roller_length);
+        self.element_count.get_or_insert(inside.element_count);
+        self.element_diameter_mm.get_or_insert(inside.element_diameter);
+        self.pitch_diameter_mm.get_or_insert(inside.pitch_diameter);
+        let no_groove = self.groove_diameter_mm.or(self.conformity_inner).or(self.conformity_outer).is_none();
+        if no_groove && kind == ElementKind::Ball {
+            (self.conformity_inner, self.conformity_outer) = (Some(CONFORMITY), Some(CONFORMITY));
+        }
+        self.youngs_modulus_gpa.get_or_insert(YOUNGS_MODULUS_GPA);
+        self.poissons_ratio.get_or_insert(POISSONS_RATIO);
+        if self.element_mass_g.is_none() {
+            self.density_kg_m3.get_or_insert(DENSITY_KG_M3);
+        }
+        Ok(self)
     }
-}
 
-const fn missing(key: &'static str) -> TableFault {
-    TableFault::Missing { key, why: "bearing.catalogue is not given either" }
-}
+    // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
+    pub(crate) fn into_bearing(self, freedom: DegreesOfFreedom) -> Result<Bearing, Faults> {
+        let keys = self.with_catalogue()?;
+        let clearance = keys.clearance()?;
+        let element_count = needed(keys.element_count, "bearing.element_count")?;
+        let diameter_mm = needed(keys.element_diameter_mm, "bearing.element_diameter_mm")?;
+        let pitch_mm = needed(keys.pitch_diameter_mm, "bearing.pitch_diameter_mm")?;
+        let youngs_modulus_gpa = needed(keys.youngs_modulus_gpa, "bearing.youngs_modulus_gpa")?;
+        let poissons_ratio = needed(keys.poissons_ratio, "bearing.poissons_ratio")?;
+        // Lists get that length: no memory is taken for what no bearing has.
+        ELEMENT_COUNT.check(element_count as f64)?;
+        let element = keys.rolling_element()?;
+        let (conformity_inner, conformity_outer) = match element {
+            RollingElement::Ball => keys.conformities(diameter_mm)?,
+            RollingElement::CylindricalRoller(_) => (f64::INFINITY, f64::INFINITY),
+        };
+        let mm = |given: Option<f64>| given.map(|mm| mm / 1e3);
+        let mut bearing = Bearing {
+            density: keys.density(&element, diameter_mm)?,
+            element,
+            element_count,
+            element_diameter: diameter_mm / 1e3,
+            diameter_offsets: Vec::new(),
+            drawn_diameters: None,
+            pitch_diameter: pitch_mm / 1e3,
+            conformity_inner,
+            conformity_outer,
+            radial_clearance: DEFAULT_CLEARANCE_UM / 1e6,
+            degrees_of_freedom: freedom,
+            contact_angle: None,
+            operating_angle: keys.operating_angle_deg.map(f64::to_radians),
+            shoulder_inner: mm(keys.shoulder_inner_mm),
+            shoulder_outer: mm(keys.shoulder_outer_mm),
+            gyroscopic: keys.gyroscopic,
+            youngs_modulus: youngs_modulus_gpa * 1e9,
+            poissons_ratio,
+            element_mass: keys.element_mass_g.map(|mass| mass / 1e3),
+            hertz_inner: keys.hertz_inner_n_m1_5,
+            hertz_outer: keys.hertz_outer_n_m1_5,
+            outer_compliance: keys.outer_compliance_m_n,
+            element_inertia: keys.element_inertia,
+        };
+        let diameters = Diameters {
+            offsets_um: keys.element_diameter_offsets_um,
+            rms_um: keys.element_diameter_rms_um,
+            seed: keys.element_diameter_seed,
+        };
+        diameters.put_into(&mut bearing)?;
+        clearance.put_into(&mut bearing)?;
+        Ok(bearing)
+    }
 
-fn bearing_named(name: &str) -> Result<CatalogueBearing, TableFault> {
-    catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() }.into())
-}
-
-/// Clearance where the file says none (µm).
-const DEFAULT_CLEARANCE_UM: f64 = 5.0;
-
-/// What the file says of how loose the bearing is, in SI units.
-enum Clearance {
-    /// G = R_o − R_i − 2r (m). What a catalogue calls the radial internal clearance is how far one ring can be moved
-    /// against the other, from stop to stop: 2 G.
-    Radial(f64),
-    /// The same along the axis (m).
-    AxialPlay(f64),
-    /// Free contact angle (rad).
-    ContactAngle(f64),
-}
-
-/// What the file says of contact angles and shoulders, in SI units.
-struct Angles {
-    operating_angle: Option<f64>,
-    shoulders: [Option<f64>; 2],
-    gyroscopic: Gyroscopic,
-}
-
-impl BearingTable {
-    /// What is given, or the contact angle (°) of the catalogue's bearing, or the usual clearance.
-    fn clearance(&self, angle: Option<f64>) -> Result<Clearance, TableFault> {
+    /// What is given, or the usual clearance.
+    fn clearance(&self) -> Result<Clearance, TableFault> {
         let given = [
             ("bearing.radial_clearance_um", self.radial_clearance_um.map(|um| Clearance::Radial(um / 1e6))),
             ("bearing.internal_clearance_um", self.internal_clearance_um.map(|um| Clearance::Radial(um / 2e6))),
@@ -253,78 +216,13 @@ impl BearingTable {
         match (given.next(), given.next()) {
             (Some((first, _)), Some((second, _))) => Err(TableFault::Both { first, second }),
             (Some((_, clearance)), None) => Ok(clearance),
-            (None, _) => Ok(angle.map_or(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6), |degrees| {
-                Clearance::ContactAngle(degrees.to_radians())
-            })),
+            (None, _) => Ok(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6)),
         }
-    }
-}
-
-impl Clearance {
-    /// Of a bearing with its diameters and grooves.
-    fn put_into(self, bearing: &mut Bearing) -> Result<(), SceneError> {
-        match self {
-            Self::Radial(clearance) => bearing.radial_clearance = clearance,
-            // Rollers are refused for it, and have no groove to work a clearance out of.
-            Self::ContactAngle(angle) if bearing.roller().is_some() => bearing.contact_angle = Some(angle),
-            Self::ContactAngle(angle) => bearing.set_contact_angle(angle),
-            Self::AxialPlay(play) => {
-                let (key, freedom) = ("bearing.axial_clearance_um", bearing.degrees_of_freedom);
-                if freedom == DegreesOfFreedom::Two {
-                    return Err(FreedomError::NeedsMore { key, least: 3, given: freedom.count() }.into());
-                }
-                if bearing.roller().is_none() {
-                    bearing.radial_clearance = bearing.clearance_of_play(play)?;
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-impl WholeBearing {
-    // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
-    fn into_bearing(self, freedom: DegreesOfFreedom) -> Result<Bearing, Faults> {
-        // Lists get that length: no memory is taken for what no bearing has.
-        ELEMENT_COUNT.check(self.element_count as f64)?;
-        let element = self.rolling_element()?;
-        let (conformity_inner, conformity_outer) = match element {
-            RollingElement::Ball => self.conformities()?,
-            RollingElement::CylindricalRoller(_) => (f64::INFINITY, f64::INFINITY),
-        };
-        let mut bearing = Bearing {
-            density: self.density(&element)?,
-            element,
-            element_count: self.element_count,
-            element_diameter: self.element_diameter_mm / 1e3,
-            diameter_offsets: Vec::new(),
-            drawn_diameters: None,
-            pitch_diameter: self.pitch_diameter_mm / 1e3,
-            conformity_inner,
-            conformity_outer,
-            radial_clearance: DEFAULT_CLEARANCE_UM / 1e6,
-            degrees_of_freedom: freedom,
-            contact_angle: None,
-            operating_angle: self.angles.operating_angle,
-            shoulder_inner: self.angles.shoulders[0],
-            shoulder_outer: self.angles.shoulders[1],
-            gyroscopic: self.angles.gyroscopic,
-            youngs_modulus: self.youngs_modulus_gpa * 1e9,
-            poissons_ratio: self.poissons_ratio,
-            element_mass: self.element_mass_g.map(|mass| mass / 1e3),
-            hertz_inner: self.hertz_inner_n_m1_5,
-            hertz_outer: self.hertz_outer_n_m1_5,
-            outer_compliance: self.outer_compliance_m_n,
-            element_inertia: self.element_inertia,
-        };
-        self.diameters.put_into(&mut bearing)?;
-        self.clearance.put_into(&mut bearing)?;
-        Ok(bearing)
     }
 
     fn rolling_element(&self) -> Result<RollingElement, Faults> {
         const LENGTH: &str = "bearing.roller_length_mm";
-        if self.element == ElementKind::Ball {
+        if self.element.unwrap_or_default() == ElementKind::Ball {
             let keys = [
                 (LENGTH, self.roller_length_mm.is_some()),
                 ("bearing.roller_profile", self.roller_profile.is_some()),
@@ -357,13 +255,13 @@ impl WholeBearing {
         Ok(RollingElement::CylindricalRoller(Roller { length, profile, laminae }))
     }
 
-    fn conformities(&self) -> Result<(f64, f64), TableFault> {
+    fn conformities(&self, element_diameter_mm: f64) -> Result<(f64, f64), TableFault> {
         const GROOVE: &str = "bearing.groove_diameter_mm";
         const INNER: &str = "bearing.conformity_inner";
         const OUTER: &str = "bearing.conformity_outer";
         match (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer) {
             (Some(groove), None, None) => {
-                let conformity = groove / (2.0 * self.element_diameter_mm);
+                let conformity = groove / (2.0 * element_diameter_mm);
                 Ok((conformity, conformity))
             }
             (None, Some(inner), Some(outer)) => Ok((inner, outer)),
@@ -379,13 +277,54 @@ impl WholeBearing {
         }
     }
 
-    fn density(&self, element: &RollingElement) -> Result<f64, TableFault> {
+    fn density(&self, element: &RollingElement, diameter_mm: f64) -> Result<f64, TableFault> {
         match (self.density_kg_m3, self.element_mass_g) {
             (Some(density), _) => Ok(density),
-            (None, Some(mass)) => Ok(mass / 1e3 / element.volume(self.element_diameter_mm / 1e3)),
+            (None, Some(mass)) => Ok(mass / 1e3 / element.volume(diameter_mm / 1e3)),
             (None, None) => {
                 Err(TableFault::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
             }
         }
+    }
+}
+
+/// A key that only the catalogue can do without.
+fn needed<T>(value: Option<T>, key: &'static str) -> Result<T, TableFault> {
+    value.ok_or(TableFault::Missing { key, why: "bearing.catalogue is not given either" })
+}
+
+/// Clearance where the file says none (µm).
+const DEFAULT_CLEARANCE_UM: f64 = 5.0;
+
+/// What the file says of how loose the bearing is, in SI units.
+enum Clearance {
+    /// G = R_o − R_i − 2r (m). What a catalogue calls the radial internal clearance is how far one ring can be moved
+    /// against the other, from stop to stop: 2 G.
+    Radial(f64),
+    /// The same along the axis (m).
+    AxialPlay(f64),
+    /// Free contact angle (rad).
+    ContactAngle(f64),
+}
+
+impl Clearance {
+    /// Of a bearing with its diameters and grooves.
+    fn put_into(self, bearing: &mut Bearing) -> Result<(), SceneError> {
+        match self {
+            Self::Radial(clearance) => bearing.radial_clearance = clearance,
+            // Rollers are refused for it, and have no groove to work a clearance out of.
+            Self::ContactAngle(angle) if bearing.roller().is_some() => bearing.contact_angle = Some(angle),
+            Self::ContactAngle(angle) => bearing.set_contact_angle(angle),
+            Self::AxialPlay(play) => {
+                let (key, freedom) = ("bearing.axial_clearance_um", bearing.degrees_of_freedom);
+                if freedom == DegreesOfFreedom::Two {
+                    return Err(FreedomError::NeedsMore { key, least: 3, given: freedom.count() }.into());
+                }
+                if bearing.roller().is_none() {
+                    bearing.radial_clearance = bearing.clearance_of_play(play)?;
+                }
+            }
+        }
+        Ok(())
     }
 }

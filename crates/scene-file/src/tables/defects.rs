@@ -1,7 +1,6 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
 use super::faults::{Faults, TableFault};
-use super::one_or_more::OneOrMore;
 use brinell::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -39,19 +38,6 @@ pub(super) enum Body {
     Outer,
     Inner,
     Element,
-}
-
-impl OneOrMore<DefectTable> {
-    pub(super) fn into_defects(self, bearing: &Bearing) -> Result<Vec<Defect>, Faults> {
-        let count = self.0.len();
-        let mut faults = Faults::default();
-        let mut defects = Vec::new();
-        for (k, table) in self.0.into_iter().enumerate() {
-            let defect = table.into_defect(bearing).map_err(|of| of.in_table("defect", k, count));
-            defects.extend(faults.take(defect));
-        }
-        faults.into_result().map(|()| defects)
-    }
 }
 
 impl DefectTable {

@@ -76,8 +76,6 @@ pub(crate) use cage::CageTable;
 pub(crate) use defects::DefectTable;
 pub(crate) use faults::{Faults, TableFault};
 pub(crate) use film::FilmTable;
-#[cfg(test)]
-pub(crate) use rings::SensorModeTable;
 pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 
 pub(crate) use waviness::WavinessTable;
@@ -152,7 +150,7 @@ impl SceneFile {
         let (housing_speed, housing_angle) = (self.housing.speed_hz, self.housing.initial_angle_deg);
         let shaft = faults.take(self.shaft.into_ring(freedom));
         let housing = faults.take(self.housing.into_ring(freedom));
-        let sensors = faults.take(self.sensor.into_sensors());
+        let sensors = faults.take(self.sensor.each("sensor", SensorTable::into_sensor));
         let repeated_inputs = match self.host.map(|host| host.repeated_inputs) {
             Some(_) if [&shaft, &housing].into_iter().flatten().all(|ring| ring.motion != Motion::Host) => {
                 faults.0.push(TableFault::NoHost);
@@ -161,8 +159,8 @@ impl SceneFile {
             given => Some(given.unwrap_or_default()),
         };
         let inside = bearing.and_then(|bearing| {
-            let defects = faults.take(self.defect.into_defects(&bearing));
-            let waviness = faults.take(self.waviness.into_waviness(bearing.element_count));
+            let defects = faults.take(self.defect.each("defect", |table| table.into_defect(&bearing)));
+            let waviness = faults.take(self.waviness.each("waviness", |table| table.into_waves(bearing.element_count)));
             let cage = faults.take(self.cage.into_cage(bearing.element_count));
             Some((bearing, defects?, waviness?, cage?))
         });

@@ -1,5 +1,6 @@
 //! A table that may stand once, `[name]`, or several times, `[[name]]`.
 
+use super::faults::Faults;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
@@ -8,6 +9,23 @@ use std::marker::PhantomData;
 
 /// All tables of one name, in the order of the file.
 pub(super) struct OneOrMore<T>(pub(super) Vec<T>);
+
+impl<T> OneOrMore<T> {
+    /// What is made of each table; or all that is wrong with any of them, with their `name` and number.
+    pub(super) fn each<U, F: Into<Faults>>(
+        self,
+        name: &'static str,
+        made: impl Fn(T) -> Result<U, F>,
+    ) -> Result<Vec<U>, Faults> {
+        let count = self.0.len();
+        let mut faults = Faults::default();
+        let tables = self.0.into_iter().enumerate();
+        let all = tables
+            .filter_map(|(k, table)| faults.take(made(table).map_err(|of| of.into().in_table(name, k, count))))
+            .collect();
+        faults.into_result().map(|()| all)
+    }
+}
 
 impl<T> Default for OneOrMore<T> {
     fn default() -> Self {

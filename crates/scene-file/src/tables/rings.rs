@@ -1,7 +1,6 @@
 //! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
 use super::faults::{Faults, TableFault};
-use super::one_or_more::OneOrMore;
 use super::short_lists::{Vector, pair, triple};
 use brinell::scene::DegreesOfFreedom::{self, Five, Three, Two};
 use brinell::scene::{AxialSupport, FreedomError, Motion, Ring, SceneError, Sensor, SensorMode, TiltSupport};
@@ -205,19 +204,6 @@ pub(crate) struct SensorModeTable {
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ProbeTable {}
-
-impl OneOrMore<SensorTable> {
-    pub(super) fn into_sensors(self) -> Result<Vec<Sensor>, Faults> {
-        let count = self.0.len();
-        let mut faults = Faults::default();
-        let mut sensors = Vec::new();
-        for (k, table) in self.0.into_iter().enumerate() {
-            sensors
-                .extend(faults.take(table.into_sensor().map_err(|of| Faults::from(of).in_table("sensor", k, count))));
-        }
-        faults.into_result().map(|()| sensors)
-    }
-}
 
 impl SensorTable {
     pub(super) fn into_sensor(self) -> Result<Sensor, TableFault> {

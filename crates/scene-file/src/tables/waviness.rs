@@ -2,7 +2,6 @@
 
 use super::defects::Body;
 use super::faults::{Faults, TableFault};
-use super::one_or_more::OneOrMore;
 use brinell::scene::{SceneError, Waviness, WavinessError, WavyBody};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -25,20 +24,8 @@ pub(crate) struct WavinessTable {
     angle_deg: f64,
 }
 
-impl OneOrMore<WavinessTable> {
-    pub(super) fn into_waviness(self, elements: usize) -> Result<Vec<Waviness>, Faults> {
-        let count = self.0.len();
-        let (mut faults, mut all) = (Faults::default(), Vec::new());
-        for (k, table) in self.0.into_iter().enumerate() {
-            let waves = table.into_waves(elements).map_err(|of| of.in_table("waviness", k, count));
-            all.extend(faults.take(waves));
-        }
-        faults.into_result().map(|()| all)
-    }
-}
-
 impl WavinessTable {
-    fn into_waves(self, count: usize) -> Result<Waviness, Faults> {
+    pub(super) fn into_waves(self, count: usize) -> Result<Waviness, Faults> {
         const ELEMENT: &str = "waviness.element";
         let on = match (self.on, self.element) {
             (Body::Element, None) => {
