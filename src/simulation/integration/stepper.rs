@@ -20,7 +20,7 @@ use super::workspace::{Evaluation, Problem, Span, Workspace, step_ends};
 use crate::dynamics::parameters::Defects;
 use crate::scene::Motion;
 use crate::simulation::integration::landing::{Crossing, Knot, Legs, first_change, first_crossing, next_knot};
-use crate::simulation::interface::{Outputs, Solution};
+use crate::simulation::interface::Outputs;
 use crate::simulation::recorder::Recorder;
 use crate::simulation::step_error::StepError;
 
@@ -318,9 +318,9 @@ impl Stepper<'_> {
             let ends = step_ends(buffers, &progress.state, span.length);
             problem.model.sensor_modes.advance(ends, share, sensor_modes);
             let Workspace { dense, scratch, sensor_modes, forces, .. } = &**workspace;
-            let solution =
-                Solution { excitation: problem.excitation, tau, state: dense, derivative: scratch, sensor_modes };
-            let outputs = Outputs::new(problem.model, solution, forces, recorder.angles());
+            let (model, excitation) = (problem.model, problem.excitation);
+            let (state, derivative, start) = (dense, scratch, recorder.angles());
+            let outputs = Outputs { model, excitation, tau, state, derivative, forces, sensor_modes, start };
             recorder.take(&mut progress.due, &mut progress.under_way, &outputs);
         }
         // What the recorder looks up is not the solver's work.

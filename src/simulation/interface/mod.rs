@@ -14,7 +14,7 @@ mod variables;
 
 pub use arrays::{ElementArray, of_all_elements};
 pub use log_category::Category;
-pub use outputs::{Angles, Outputs, Solution};
+pub use outputs::{Angles, Outputs};
 pub use quantity::{Count, Parameter, Quantity, RingName};
 
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};

@@ -14,40 +14,27 @@ pub struct Angles {
     pub frames: [f64; 3],
 }
 
-/// The solution at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct Solution<'a> {
-    /// What acts from outside.
-    pub excitation: &'a Excitation,
-    /// Time since the communication point (s).
-    pub tau: f64,
-    /// State vector.
-    pub state: &'a [f64],
-    /// Its derivative.
-    pub derivative: &'a [f64],
-    /// State of the modes between outer ring and sensors.
-    pub sensor_modes: &'a [f64],
-}
-
-/// The outputs of one instant, each computed when it is asked for.
+/// The outputs of one instant, each computed when it is asked for, of the solution then.
 #[derive(Debug, Clone, Copy)]
 pub struct Outputs<'a> {
-    model: &'a Model,
-    solution: Solution<'a>,
-    forces: &'a Forces,
+    pub(in crate::simulation) model: &'a Model,
+    /// What acts from outside.
+    pub(in crate::simulation) excitation: &'a Excitation,
+    /// Time since the communication point (s).
+    pub(in crate::simulation) tau: f64,
+    pub(in crate::simulation) state: &'a [f64],
+    /// The state's derivative and the forces: the model's for that state.
+    pub(in crate::simulation) derivative: &'a [f64],
+    pub(in crate::simulation) forces: &'a Forces,
+    /// State of the modes between outer ring and sensors.
+    pub(in crate::simulation) sensor_modes: &'a [f64],
     /// Angles at the communication point.
-    start: Angles,
+    pub(in crate::simulation) start: Angles,
 }
 
-impl<'a> Outputs<'a> {
-    /// Those of a solution. Its derivative and `forces` are the model's for its state; `start` are the angles at the
-    /// communication point.
-    pub fn new(model: &'a Model, solution: Solution<'a>, forces: &'a Forces, start: Angles) -> Self {
-        Self { model, solution, forces, start }
-    }
-
+impl Outputs<'_> {
     fn ring(&self, ring: RingName) -> RingState {
-        let Solution { excitation, tau, state, .. } = self.solution;
+        let Self { excitation, tau, state, .. } = *self;
         match ring {
             RingName::Shaft => self.model.shaft_state(excitation, tau, state),
             RingName::Housing => self.model.housing_state(excitation, tau, state),
@@ -56,25 +43,25 @@ impl<'a> Outputs<'a> {
 
     /// Acceleration of a ring (m/s²).
     pub(in crate::simulation) fn acceleration(&self, ring: RingName) -> Vector {
-        let Solution { excitation, tau, derivative, .. } = self.solution;
+        let Self { excitation, tau, derivative, .. } = *self;
         self.model.ring_rates(excitation, tau, derivative)[ring.index()].velocity
     }
 
     /// What sensor `k` measures (m/s²).
     fn sensor(&self, k: usize) -> f64 {
-        let Solution { derivative, sensor_modes, .. } = self.solution;
+        let Self { derivative, sensor_modes, .. } = *self;
         let own = derivative[self.model.layout.sensor_index(k) + 1];
         self.model.sensor_modes.measured(k, own, sensor_modes)
     }
 
     /// Angle of the nominal cage, all turns counted (rad).
     fn cage_angle(&self) -> f64 {
-        self.start.cage + self.solution.excitation.cage.at(self.solution.tau)
+        self.start.cage + self.excitation.cage.at(self.tau)
     }
 
     /// Angle of a frame of defects, all turns counted (rad).
     fn frame_angle(&self, frame: Frame) -> f64 {
-        let (Solution { excitation, tau, .. }, frame) = (self.solution, frame as usize);
+        let (Self { excitation, tau, .. }, frame) = (*self, frame as usize);
         self.start.frames[frame] + excitation.frames[frame].since.at(tau)
     }
 
@@ -85,7 +72,7 @@ impl<'a> Outputs<'a> {
 
     /// Rings with more than two degrees of freedom; `None` in the plane.
     fn in_space(&self) -> Option<[RingInSpace; 2]> {
-        let Solution { excitation, tau, state, .. } = self.solution;
+        let Self { excitation, tau, state, .. } = *self;
         self.model.space.as_ref().map(|_| self.model.rings_in_space(excitation, tau, state, None))
     }
 
@@ -103,13 +90,13 @@ impl<'a> Outputs<'a> {
 
     /// Value of an output; `None` for what is not of an instant, or costs more than what is computed here.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
-        let Solution { excitation, tau, state, .. } = self.solution;
+        let Self { excitation, tau, state, .. } = *self;
         Some(match quantity {
             // Beyond the plane.
             Quantity::Position(ring, k @ 2..) => self.in_space()?[ring.index()].position[k],
             Quantity::Velocity(ring, k @ 2..) => self.in_space()?[ring.index()].velocity[k],
             Quantity::Acceleration(ring, k @ 2..) => {
-                self.model.ring_rates_in_space(excitation, tau, self.solution.derivative)[ring.index()].velocity[k]
+                self.model.ring_rates_in_space(excitation, tau, self.derivative)[ring.index()].velocity[k]
             }
             Quantity::Probe(k @ 2..) => {
                 let [shaft, housing] = self.in_space()?;

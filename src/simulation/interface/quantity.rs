@@ -20,6 +20,14 @@ impl RingName {
         }
     }
 
+    /// Its name in names of variables, and in words.
+    pub(in crate::simulation) fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Shaft => ["shaft", "inner ring"],
+            Self::Housing => ["housing", "outer ring"],
+        }
+    }
+
     /// The frame of its defects.
     pub(in crate::simulation) fn frame(self) -> Frame {
         match self {

@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::simulation::Method;
 use crate::simulation::error::SimulationError;
 use crate::simulation::integration::{Control, Evaluation, Problem, Progress, Stepper, Workspace};
-use crate::simulation::interface::{Count, Inputs, Interface, Outputs, Solution};
+use crate::simulation::interface::{Count, Inputs, Interface, Outputs};
 use crate::simulation::recorder::{Due, Recorder};
 use crate::simulation::setup;
 use crate::simulation::step_error::StepError;
@@ -203,13 +203,15 @@ impl Present {
     /// The outputs.
     pub(in crate::simulation) fn outputs<'a>(&'a self, Run { model, state, .. }: &'a Run) -> Outputs<'a> {
         let (Evaluation { derivative, forces }, progress) = (&self.evaluation, &state.progress);
-        let solution = Solution {
+        Outputs {
+            model,
             excitation: &self.excitation,
             tau: 0.0,
             state: &progress.state,
             derivative,
+            forces,
             sensor_modes: &progress.sensor_modes,
-        };
-        Outputs::new(model, solution, forces, state.angles())
+            start: state.angles(),
+        }
     }
 }

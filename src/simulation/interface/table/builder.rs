@@ -1,7 +1,7 @@
 //! How a row of the variable table is added, and what rows have in common.
 
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
-use crate::scene::{ContactLaw, Motion, RepeatedInputs, Scene};
+use crate::scene::{ContactLaw, Motion, RepeatedInputs, Ring, Scene};
 use crate::simulation::interface::quantity::{Quantity, RingName};
 use crate::surface::Surface;
 
@@ -45,10 +45,12 @@ impl<'a> Builder<'a> {
     }
 
     pub(super) fn motion(&self, ring: RingName) -> Motion {
-        match ring {
-            RingName::Shaft => self.scene.shaft.motion,
-            RingName::Housing => self.scene.housing.motion,
-        }
+        self.ring(ring).motion
+    }
+
+    /// A ring of the scene.
+    pub(super) fn ring(&self, ring: RingName) -> Ring {
+        [self.scene.shaft, self.scene.housing][ring.index()]
     }
 
     pub(in crate::simulation) fn parameter(

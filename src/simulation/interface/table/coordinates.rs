@@ -39,14 +39,8 @@ pub(super) fn stiffness_name(row: usize, column: usize) -> String {
 
 impl Builder<'_> {
     /// Forces on a ring along its axes, and in space moments about x and y.
-    pub(super) fn forces(
-        &mut self,
-        ring: RingName,
-        (of, what): (&str, &str),
-        prefix: &str,
-        text: [&str; 2],
-        quantity: fn(RingName, usize) -> Q,
-    ) {
+    pub(super) fn forces(&mut self, ring: RingName, prefix: &str, text: [&str; 2], quantity: fn(RingName, usize) -> Q) {
+        let [of, what] = ring.names();
         for axis in 0..if self.in_space() { COORDINATES.len() } else { 2 } {
             let [letter, along] = COORDINATES[axis];
             let kind = Along { axis: ["force.", "Force"], tilt: ["moment.", "Moment"] }.of(axis);

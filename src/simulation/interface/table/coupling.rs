@@ -11,16 +11,12 @@ impl Builder<'_> {
     pub(super) fn coupling(&mut self) {
         let hosted: Vec<RingName> = RINGS.into_iter().filter(|&ring| self.motion(ring) == Motion::Host).collect();
         for &ring in &hosted {
-            let (name, what) = match ring {
-                RingName::Shaft => ("shaft", "inner ring"),
-                RingName::Housing => ("housing", "outer ring"),
-            };
             let text = [
                 " of the bearing's contacts to hold on",
                 " over a next communication step of the same length; for a host that steps all units in parallel and \
                  holds inputs",
             ];
-            self.forces(ring, (name, what), "next_mean_", text, Q::NextMeanForce);
+            self.forces(ring, "next_mean_", text, Q::NextMeanForce);
         }
         if hosted.is_empty() {
             return;

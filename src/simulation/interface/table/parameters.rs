@@ -180,75 +180,57 @@ impl Builder<'_> {
     }
 
     fn ring_parameters(&mut self, ring: RingName) {
-        let (name, what, parts) = match ring {
-            RingName::Shaft => ("shaft", "inner ring", self.scene.shaft),
-            RingName::Housing => ("housing", "outer ring", self.scene.housing),
-        };
-        self.parameter(
-            &format!("{name}.mass"),
-            &format!("Mass of the {what} and what moves with it"),
-            Q::Parameter(Parameter::RingMass(ring)),
-            Unit::Kilogram,
-            Limited { start: parts.mass, min: 1e-6, max: 1e9, nominal: 1.0 },
-        );
-        self.parameter(
-            &format!("{name}.damping"),
-            &format!("Viscous damping of the {what} to ground"),
-            Q::Parameter(Parameter::RingDamping(ring)),
-            Unit::NewtonSecondPerMetre,
-            Limited { start: parts.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
-        );
-        self.parameter(
-            &format!("{name}.stiffness"),
-            &format!("Support stiffness of the {what} to ground"),
-            Q::Parameter(Parameter::RingStiffness(ring)),
-            Unit::NewtonPerMetre,
-            Limited { start: parts.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
-        );
-        if self.in_space() {
-            self.axial_parameters(ring);
-            if ring == RingName::Shaft && self.scene.bearing.degrees_of_freedom == DegreesOfFreedom::Five {
-                self.tilt_parameters();
-            }
-        }
-    }
-
-    /// What holds a ring along the axis.
-    fn axial_parameters(&mut self, ring: RingName) {
-        let (name, what, of) = match ring {
-            RingName::Shaft => ("shaft", "inner ring", self.scene.shaft.axial),
-            RingName::Housing => ("housing", "outer ring", self.scene.housing.axial),
-        };
-        for (key, text, parameter, unit, limited) in [
+        let ([name, what], parts) = (ring.names(), self.ring(ring));
+        let axial = parts.axial;
+        let all = [
+            (
+                "mass",
+                ["Mass of the ", what, " and what moves with it"],
+                Parameter::RingMass(ring),
+                Unit::Kilogram,
+                Limited { start: parts.mass, min: 1e-6, max: 1e9, nominal: 1.0 },
+            ),
+            (
+                "damping",
+                ["Viscous damping of the ", what, " to ground"],
+                Parameter::RingDamping(ring),
+                Unit::NewtonSecondPerMetre,
+                Limited { start: parts.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
+            ),
+            (
+                "stiffness",
+                ["Support stiffness of the ", what, " to ground"],
+                Parameter::RingStiffness(ring),
+                Unit::NewtonPerMetre,
+                Limited { start: parts.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
+            ),
             (
                 "axial_damping",
-                "Viscous damping along z",
+                ["Viscous damping along z of the ", what, ""],
                 Parameter::AxialDamping(ring),
                 Unit::NewtonSecondPerMetre,
-                Limited { start: of.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
+                Limited { start: axial.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
             ),
             (
                 "axial_stiffness",
-                "Support stiffness along z",
+                ["Support stiffness along z of the ", what, ""],
                 Parameter::AxialStiffness(ring),
                 Unit::NewtonPerMetre,
-                Limited { start: of.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
+                Limited { start: axial.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
             ),
             (
                 "preload",
-                "Force of a preload spring, in the sense of the contact angle",
+                ["Force of a preload spring, in the sense of the contact angle of the ", what, ""],
                 Parameter::Preload(ring),
                 Unit::Newton,
-                Limited { start: of.preload, min: 0.0, max: 1e9, nominal: 100.0 },
+                Limited { start: axial.preload, min: 0.0, max: 1e9, nominal: 100.0 },
             ),
-        ] {
-            self.parameter(
-                &[name, ".", key].concat(),
-                &[text, " of the ", what].concat(),
-                Q::Parameter(parameter),
-                unit,
-                limited,
-            );
+        ];
+        for (key, text, parameter, unit, limited) in all.into_iter().take(if self.in_space() { 6 } else { 3 }) {
+            self.parameter(&[name, ".", key].concat(), &text.concat(), Q::Parameter(parameter), unit, limited);
+        }
+        if ring == RingName::Shaft && self.scene.bearing.degrees_of_freedom == DegreesOfFreedom::Five {
+            self.tilt_parameters();
         }
     }
 

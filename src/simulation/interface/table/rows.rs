@@ -83,10 +83,7 @@ impl Builder<'_> {
             self.input("housing.speed", text, quantity, unit, speed, SPEED);
         }
         for ring in RINGS {
-            let (of, what, parts) = match ring {
-                RingName::Shaft => ("shaft", "inner ring", scene.shaft),
-                RingName::Housing => ("housing", "outer ring", scene.housing),
-            };
+            let ([of, what], parts) = (ring.names(), self.ring(ring));
             let [m_x, m_y] = parts.tilt.load_moment;
             let loads = [parts.load[0], parts.load[1], parts.axial.load, m_x, m_y];
             match self.motion(ring) {
@@ -224,12 +221,9 @@ impl Builder<'_> {
     }
 
     fn ring_angle(&mut self, ring: RingName) {
-        let (name, what) = match ring {
-            RingName::Shaft => ("shaft.angle", "inner ring"),
-            RingName::Housing => ("housing.angle", "outer ring"),
-        };
+        let [of, what] = ring.names();
         let text = ["Angle of the ", what, ", counter-clockwise"].concat();
-        self.output(name, &text, Q::RingAngle(ring), Unit::Radian, 1.0);
+        self.output(&[of, ".angle"].concat(), &text, Q::RingAngle(ring), Unit::Radian, 1.0);
     }
 
     fn element_outputs(&mut self, j: usize) {
@@ -318,10 +312,7 @@ impl Builder<'_> {
     }
 
     fn ring_outputs(&mut self, ring: RingName) {
-        let (of, what) = match ring {
-            RingName::Shaft => ("shaft", "inner ring"),
-            RingName::Housing => ("housing", "outer ring"),
-        };
+        let [of, what] = ring.names();
         let motion = self.motion(ring);
         if motion == Motion::Internal {
             for Prescribed { prefix, noun, quantity, unit, size } in PRESCRIBED {
@@ -342,13 +333,13 @@ impl Builder<'_> {
         let hosted = motion == Motion::Host;
         let after =
             if hosted { "; with its derivative by time for a host that steps all units in parallel" } else { "" };
-        self.forces(ring, (of, what), "", [" of the bearing's contacts, at this moment, on", after], Q::Force);
+        self.forces(ring, "", [" of the bearing's contacts, at this moment, on", after], Q::Force);
         if hosted {
             let mean = [
                 " of the bearing's contacts, mean over the last communication step, on",
                 "; for a host that takes the same step after the bearing, never for one in parallel",
             ];
-            self.forces(ring, (of, what), "mean_", mean, Q::MeanForce);
+            self.forces(ring, "mean_", mean, Q::MeanForce);
         }
     }
 
