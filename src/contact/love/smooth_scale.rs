@@ -84,15 +84,9 @@ impl SmoothScale {
 
     /// Second derivatives of the equivalent approach of an energy, of which `second` are the second derivatives.
     pub(super) fn second_derivatives(&self, e: Energy, second: SecondDerivatives) -> SecondDerivatives {
-        if e.w <= 0.0 {
-            return SecondDerivatives::default();
-        }
-        let scale = self.local(e.w);
-        SecondDerivatives {
-            uu: scale.second_derivative(second.uu, e.u, e.u),
-            us: scale.second_derivative(second.us, e.u, e.s),
-            ss: scale.second_derivative(second.ss, e.s, e.s),
-        }
+        let SecondDerivatives { uu, us, ss } = second;
+        let [[uu, us], [_, ss]] = self.second(e.w, [e.u, e.s], [[uu, us], [us, ss]]);
+        SecondDerivatives { uu, us, ss }
     }
 
     /// Slopes of the equivalent approach of an energy `w` that has these slopes.

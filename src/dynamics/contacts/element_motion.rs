@@ -39,11 +39,21 @@ impl<T: Scalar> ElementMotion<T> {
     /// The same in numbers of another kind.
     #[inline(always)]
     pub(in crate::dynamics) fn mapped<U: Scalar>(&self, number: impl Fn(T) -> U) -> ElementMotion<U> {
+        self.mapped_both(&number, &number)
+    }
+
+    /// The same in numbers of another kind, and its directions in those of one more.
+    #[inline(always)]
+    fn mapped_both<U: Scalar, E: Scalar>(
+        &self,
+        number: impl Fn(T) -> U,
+        direction: impl Fn(T) -> E,
+    ) -> ElementMotion<U, E> {
         let vector = |vector: Vector<T>| vector.map(&number);
         ElementMotion {
             element: self.element,
-            e_r: vector(self.e_r),
-            e_t: vector(self.e_t),
+            e_r: self.e_r.map(&direction),
+            e_t: self.e_t.map(&direction),
             angle: number(self.angle),
             omega: number(self.omega),
             alpha: number(self.alpha),
@@ -62,7 +72,7 @@ impl<T: Scalar> ElementMotion<T> {
     #[inline(always)]
     pub(in crate::dynamics) fn by_path<const K: usize>(&self) -> ElementMotion<Dual<T, K>, T> {
         let path = Dual::variable(self.path, 0);
-        ElementMotion { path, ..self.mapped(Dual::constant).towards(self.e_r, self.e_t) }
+        ElementMotion { path, ..self.mapped_both(Dual::constant, |direction| direction) }
     }
 
     /// The same by its path, and by time as all else goes on while the path stands.
@@ -83,29 +93,6 @@ impl<T: Scalar> ElementMotion<T> {
             ),
             path: Dual::variable(self.path, 0),
             ..self.mapped(Dual::constant)
-        }
-    }
-
-    /// The same in these directions.
-    #[inline(always)]
-    pub(in crate::dynamics) fn towards<E: Scalar>(&self, e_r: Vector<E>, e_t: Vector<E>) -> ElementMotion<T, E> {
-        let Self { element, angle, omega, alpha, path, path_rate, offset, drift, .. } = *self;
-        let Self { frames, films, film_speed, curved, .. } = *self;
-        ElementMotion {
-            element,
-            e_r,
-            e_t,
-            angle,
-            omega,
-            alpha,
-            path,
-            path_rate,
-            offset,
-            drift,
-            frames,
-            films,
-            film_speed,
-            curved,
         }
     }
 

@@ -40,6 +40,35 @@ pub(crate) unsafe fn get<T>(
     })
 }
 
+/// Computes a product with the Jacobian from references of unknowns and knowns and a seed.
+///
+/// # Safety
+/// All arrays are null, or point to as many elements as they say.
+pub(crate) unsafe fn product(
+    component: Component,
+    function: &'static Function,
+    [unknowns, knowns]: [References; 2],
+    seed: Array<*const f64>,
+    values: Array<*mut f64>,
+    compute: impl FnOnce(&mut Instance, [&[ValueReference]; 2], &[f64], &mut [f64]) -> Result<(), Failure>,
+) -> Status {
+    boundary::call(component, function, |instance| {
+        disjoint(unknowns.pointer, unknowns.count, values.pointer, values.count)?;
+        disjoint(knowns.pointer, knowns.count, values.pointer, values.count)?;
+        disjoint(seed.pointer, seed.count, values.pointer, values.count)?;
+        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
+        let (unknowns, knowns, seed, values) = unsafe {
+            (
+                array(unknowns.name, unknowns.pointer, unknowns.count)?,
+                array(knowns.name, knowns.pointer, knowns.count)?,
+                array(seed.name, seed.pointer, seed.count)?,
+                array_mut(values.name, values.pointer, values.count)?,
+            )
+        };
+        compute(instance, [unknowns, knowns], seed, values)
+    })
+}
+
 /// Sets numbers.
 ///
 /// # Safety

@@ -5,6 +5,7 @@
 use super::functions;
 use super::types::{Component, Integer, Real, Status, ValueReference};
 use crate::arguments::{array, array_mut, disjoint};
+use crate::both_versions::variables::{Array, product};
 use crate::boundary;
 use crate::instance::finite;
 
@@ -22,22 +23,18 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     dvKnown: *const Real,
     dvUnknown: *mut Real,
 ) -> Status {
-    boundary::call(c, &functions::GET_DIRECTIONAL_DERIVATIVE, |instance| {
-        disjoint(vUnknown_ref, nUnknown, dvUnknown, nUnknown)?;
-        disjoint(vKnown_ref, nKnown, dvUnknown, nUnknown)?;
-        disjoint(dvKnown, nKnown, dvUnknown, nUnknown)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (unknowns, knowns, seed, values) = unsafe {
-            (
-                array("vUnknown_ref", vUnknown_ref, nUnknown)?,
-                array("vKnown_ref", vKnown_ref, nKnown)?,
-                array("dvKnown", dvKnown, nKnown)?,
-                array_mut("dvUnknown", dvUnknown, nUnknown)?,
-            )
-        };
-        instance.directional_derivative(unknowns, knowns, seed, values)?;
-        finite(&instance.simulation, unknowns, values)
-    })
+    let unknowns = Array { name: "vUnknown_ref", pointer: vUnknown_ref, count: nUnknown };
+    let knowns = Array { name: "vKnown_ref", pointer: vKnown_ref, count: nKnown };
+    let seed = Array { name: "dvKnown", pointer: dvKnown, count: nKnown };
+    let values = Array { name: "dvUnknown", pointer: dvUnknown, count: nUnknown };
+    let function = &functions::GET_DIRECTIONAL_DERIVATIVE;
+    // SAFETY: this function's contract.
+    unsafe {
+        product(c, function, [unknowns, knowns], seed, values, |instance, [unknowns, knowns], seed, values| {
+            instance.directional_derivative(unknowns, knowns, seed, values)?;
+            finite(&instance.simulation, unknowns, values)
+        })
+    }
 }
 
 /// `fmi2SetRealInputDerivatives`: derivatives of inputs by time, valid through the next step.

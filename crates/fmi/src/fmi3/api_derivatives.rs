@@ -7,61 +7,35 @@ use super::functions;
 use super::types::{Instance, Status, ValueReference};
 use super::values::{expand, may_read};
 use crate::arguments::{array, array_mut, disjoint};
-use crate::instance::{Failure, Function, ValueCount, finite};
+use crate::both_versions::variables::{Array, product};
+use crate::instance::{Failure, ValueCount, finite};
 use crate::{boundary, instance};
-
-/// An array as a host gives it.
-struct Given<P> {
-    pointer: P,
-    count: usize,
-}
-
-/// References and values of a product with the Jacobian.
-struct Product {
-    unknowns: Given<*const ValueReference>,
-    knowns: Given<*const ValueReference>,
-    seed: Given<*const f64>,
-    sensitivity: Given<*mut f64>,
-}
 
 /// What the model computes of rows of unknowns and knowns and a seed.
 type Computed = fn(&mut instance::Instance, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), Failure>;
 
-/// Computes a product. `adjoint` says which of unknowns and knowns the seed belongs to.
-///
-/// # Safety
-/// Pointers are null or point to as many elements as said.
-unsafe fn product(handle: Instance, function: &'static Function, product: Product, adjoint: bool) -> Status {
-    boundary::call(handle, function, |instance| {
-        let Product { unknowns, knowns, seed, sensitivity } = product;
-        disjoint(unknowns.pointer, unknowns.count, sensitivity.pointer, sensitivity.count)?;
-        disjoint(knowns.pointer, knowns.count, sensitivity.pointer, sensitivity.count)?;
-        disjoint(seed.pointer, seed.count, sensitivity.pointer, sensitivity.count)?;
-        // SAFETY: this function's contract; null, misaligned and overlapping arrays are refused.
-        let (unknowns, knowns, seed, sensitivity) = unsafe {
-            (
-                array("unknowns", unknowns.pointer, unknowns.count)?,
-                array("knowns", knowns.pointer, knowns.count)?,
-                array("seed", seed.pointer, seed.count)?,
-                array_mut("sensitivity", sensitivity.pointer, sensitivity.count)?,
-            )
+/// Computes a product of variables' elements. `adjoint` says which of unknowns and knowns the seed belongs to.
+fn of_elements(
+    instance: &mut instance::Instance,
+    [unknowns, knowns]: [&[ValueReference]; 2],
+    (seed, sensitivity): (&[f64], &mut [f64]),
+    adjoint: bool,
+) -> Result<(), Failure> {
+    let of_seed = ValueCount { name: "nSeed", given: seed.len() };
+    let of_sensitivity = ValueCount { name: "nSensitivity", given: sensitivity.len() };
+    let (of_unknowns, of_knowns) = if adjoint { (of_seed, of_sensitivity) } else { (of_sensitivity, of_seed) };
+    with_rows(instance, |instance, rows| {
+        expand(instance, unknowns, of_unknowns, rows)?;
+        let count = rows.len();
+        expand(instance, knowns, of_knowns, rows)?;
+        let (unknowns, knowns) = rows.split_at(count);
+        let (compute, of): (Computed, _) = if adjoint {
+            (instance::Instance::adjoint_derivative, knowns)
+        } else {
+            (instance::Instance::directional_derivative, unknowns)
         };
-        let of_seed = ValueCount { name: "nSeed", given: seed.len() };
-        let of_sensitivity = ValueCount { name: "nSensitivity", given: sensitivity.len() };
-        let (of_unknowns, of_knowns) = if adjoint { (of_seed, of_sensitivity) } else { (of_sensitivity, of_seed) };
-        with_rows(instance, |instance, rows| {
-            expand(instance, unknowns, of_unknowns, rows)?;
-            let count = rows.len();
-            expand(instance, knowns, of_knowns, rows)?;
-            let (unknowns, knowns) = rows.split_at(count);
-            let (compute, of): (Computed, _) = if adjoint {
-                (instance::Instance::adjoint_derivative, knowns)
-            } else {
-                (instance::Instance::directional_derivative, unknowns)
-            };
-            compute(instance, unknowns, knowns, seed, sensitivity)?;
-            finite(&instance.simulation, of, sensitivity)
-        })
+        compute(instance, unknowns, knowns, seed, sensitivity)?;
+        finite(&instance.simulation, of, sensitivity)
     })
 }
 
@@ -97,14 +71,16 @@ macro_rules! products {
             sensitivity: *mut f64,
             nSensitivity: usize,
         ) -> Status {
-            let wanted = Product {
-                unknowns: Given { pointer: unknowns, count: nUnknowns },
-                knowns: Given { pointer: knowns, count: nKnowns },
-                seed: Given { pointer: seed, count: nSeed },
-                sensitivity: Given { pointer: sensitivity, count: nSensitivity },
-            };
+            let unknowns = Array { name: "unknowns", pointer: unknowns, count: nUnknowns };
+            let knowns = Array { name: "knowns", pointer: knowns, count: nKnowns };
+            let seed = Array { name: "seed", pointer: seed, count: nSeed };
+            let values = Array { name: "sensitivity", pointer: sensitivity, count: nSensitivity };
             // SAFETY: this function's contract.
-            unsafe { product(instance, &functions::$row, wanted, $adjoint) }
+            unsafe {
+                product(instance, &functions::$row, [unknowns, knowns], seed, values, |instance, of, seed, values| {
+                    of_elements(instance, of, (seed, values), $adjoint)
+                })
+            }
         }
     )*};
 }
