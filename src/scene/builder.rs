@@ -114,6 +114,12 @@ impl Bearing {
 }
 
 impl Ring {
+    /// Loads along x, y and z (N), and moments about x and y (N m).
+    pub fn loads(&self) -> [f64; 5] {
+        let ([x, y], [m_x, m_y]) = (self.load, self.tilt.load_moment);
+        [x, y, self.axial.load, m_x, m_y]
+    }
+
     /// The inner ring with its shaft: a free mass. Values of published models of a bearing test rig with five degrees
     /// of freedom (attributed to Sawalhi and Randall 2008), except the stiffness: a shaft that is held to the ground
     /// as stiffly as a bearing is stiff would carry the load itself.

@@ -30,7 +30,7 @@ fn the_jacobian_is_the_quotient_of_differences() {
     for (bearing, sensors) in [(angular(25.0), 1), (b6205(8e-6), 2)] {
         let simulation = moving(bearing, sensors);
         let (model, mut excitation) = simulation.equations();
-        excitation.beyond[0].load[0].0[1] = 1e4;
+        excitation.load[0][2].0[1] = 1e4;
         let (state, cells, len) = (simulation.state_vector().to_vec(), simulation.cells().clone(), model.layout.len);
         let mut jacobian = Jacobian::new(model);
         model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut Shortcuts::default());

@@ -9,15 +9,14 @@ use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     BODIES, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, SPATIAL_BODIES, Space,
 };
-use crate::dynamics::quasi_static::{Rings, stacked};
+use crate::dynamics::quasi_static::{Rings, in_plane, stacked};
 
 impl Variation {
     /// Makes it that by time at `tau`, all that has a state standing still.
     fn set_by_time(&mut self, model: &Model, now: &FramedKinematics, excitation: &Excitation, tau: f64) {
         (self.cage_angle, self.cage_speed) = (now.cage.speed, now.cage.acceleration);
         (self.film_speed, self.frames) = (excitation.relative_speed.rate_at(tau), excitation.frame_rates(tau));
-        self.beyond = [0, 1].map(|ring| model.prescribed_ring_rates(excitation, ring, tau));
-        [self.shaft, self.housing] = self.beyond.map(|ring| ring.in_plane());
+        self.rings = [0, 1].map(|ring| model.prescribed_ring_rates(excitation, ring, tau));
     }
 }
 
@@ -50,7 +49,7 @@ impl Model {
         shortcuts: &mut Shortcuts,
     ) {
         let elements = if self.elements_in_balance() { 0 } else { self.element_count };
-        let housing = changing_vector(now.housing.velocity, time.housing.velocity);
+        let housing = changing_vector(now.housing.velocity, time.housing_velocity());
         let mut on_rings = Rings::zeros();
         for j in 0..elements {
             let found = self.changing_forces(j, cells, state, now, time, shortcuts);
@@ -62,9 +61,9 @@ impl Model {
         }
         // Prescribed rings move the sensors; on the rings themselves nothing but their loads and elements depends on
         // time.
-        let [velocity, acceleration] = Kinematics { shaft: time.shaft, housing: time.housing, ..**now }.bodies();
-        let loads = excitation.shaft_load.iter().chain(&excitation.housing_load).map(|load| load.rate_at(tau));
-        let acting = on_rings + Rings::from_iterator(loads);
+        let [shaft, housing] = time.in_plane();
+        let [velocity, acceleration] = Kinematics { shaft, housing, ..**now }.bodies();
+        let acting = on_rings + in_plane(&excitation.load.map(|ring| ring.map(|load| load.rate_at(tau))));
         let rates = self.supports.accelerations(&velocity, &acceleration, &acting);
         put(&bodies::<BODIES>(self), rates.iter().copied(), by_time);
     }
@@ -96,7 +95,7 @@ impl Model {
             }
         }
         let [mut moved, mut going] = [[0.0; SPATIAL_BODIES]; 2];
-        for (ring, rates) in time.beyond.iter().enumerate() {
+        for (ring, rates) in time.rings.iter().enumerate() {
             moved[COORDINATES * ring..][..COORDINATES].copy_from_slice(&rates.position);
             going[COORDINATES * ring..][..COORDINATES].copy_from_slice(&rates.velocity);
         }

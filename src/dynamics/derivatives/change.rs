@@ -1,6 +1,6 @@
 //! A small change of state and inputs, and what contact forces make of it.
 
-use crate::dynamics::parameters::{CageState, Lead, RingInSpace, RingState};
+use crate::dynamics::parameters::{COORDINATES, CageState, Lead, RINGS, RingInSpace, RingState};
 use crate::dynamics::quasi_static::Rings;
 use crate::numerics::number::Dual;
 use crate::numerics::plane::Vector;
@@ -17,12 +17,8 @@ pub struct Variation {
     /// Of angle (rad) and speed (rad/s) of the frames of defects, in the order of
     /// [`crate::dynamics::parameters::Frame`].
     pub frames: [[f64; 2]; 3],
-    /// Of the inner ring.
-    pub shaft: RingState,
-    /// Of the outer ring.
-    pub housing: RingState,
-    /// Of the inner and the outer ring beyond the plane: z, and tilt about x and about y; x and y are as above.
-    pub beyond: [RingInSpace; 2],
+    /// Of the inner and of the outer ring.
+    pub rings: [RingInSpace; 2],
     /// Of the balls' axial positions v (m); of no length in the plane.
     pub axial: Vec<f64>,
     /// Of their axial velocities w_z (m/s).
@@ -44,12 +40,8 @@ pub struct ForceChange {
     pub path_rate: Vec<f64>,
     /// Of the rates of their absolute radial velocities (m/s²).
     pub radial_acceleration: Vec<f64>,
-    /// Of the force on the inner ring (N).
-    pub shaft: Vector,
-    /// Of the force on the outer ring (N).
-    pub housing: Vector,
-    /// Of the force along z (N) and the moments about x and y (N m) on the inner and the outer ring.
-    pub beyond: [[f64; 3]; 2],
+    /// Of the forces (N) and moments (N m) on the inner and on the outer ring.
+    pub rings: [[f64; COORDINATES]; 2],
     /// Of each contact angle on the inner and on the outer raceway (rad); of no length in the plane.
     pub contact_angles: [Vec<f64>; 2],
     /// Of the cage torque (N m) while the outer ring's acceleration does not change.
@@ -75,28 +67,35 @@ impl Variation {
     pub fn clear(&mut self) {
         (self.cage_angle, self.cage_speed, self.frames) = (0.0, 0.0, [[0.0; 2]; 3]);
         self.film_speed = 0.0;
-        (self.shaft, self.housing) = (RingState::default(), RingState::default());
-        self.beyond = Default::default();
+        self.rings = Default::default();
         self.axial.fill(0.0);
         self.axial_velocity.fill(0.0);
         self.path.fill(0.0);
         self.radial_velocity.fill(0.0);
     }
 
-    /// Of the outer ring's position less that of the inner (m).
-    pub(in crate::dynamics) fn offset(&self) -> Vector {
-        self.housing.position - self.shaft.position
+    /// Of both rings in the plane.
+    pub(crate) fn in_plane(&self) -> [RingState; 2] {
+        self.rings.map(|ring| ring.in_plane())
     }
 
-    /// Moves both rings further (m).
+    /// Of the outer ring's velocity (m/s).
+    pub(in crate::dynamics) fn housing_velocity(&self) -> Vector {
+        self.rings[1].in_plane().velocity
+    }
+
+    /// Moves both rings further in the plane (m).
     pub(in crate::dynamics) fn move_rings(&mut self, motion: &Rings) {
-        self.shaft.position += Vector::new(motion[0], motion[1]);
-        self.housing.position += Vector::new(motion[2], motion[3]);
+        for (i, by) in motion.iter().enumerate() {
+            self.rings[i / 2].position[i % 2] += by;
+        }
     }
 
-    /// Of the outer ring's velocity less that of the inner (m/s).
-    pub(in crate::dynamics) fn drift(&self) -> Vector {
-        self.housing.velocity - self.shaft.velocity
+    /// Moves both rings further (m, rad).
+    pub(in crate::dynamics) fn move_in_space(&mut self, motion: &[f64; RINGS]) {
+        for (i, by) in motion.iter().enumerate() {
+            self.rings[i / COORDINATES].position[i % COORDINATES] += by;
+        }
     }
 }
 

@@ -10,31 +10,6 @@ use crate::dynamics::spatial::{BallForces, BallMotion};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
 
-impl Variation {
-    /// Change of both rings along all of their coordinates.
-    fn rings(&self) -> [RingInSpace; 2] {
-        let mut rings = self.beyond;
-        for (ring, plane) in rings.iter_mut().zip([&self.shaft, &self.housing]) {
-            for k in 0..2 {
-                (ring.position[k], ring.velocity[k]) = (plane.position[k], plane.velocity[k]);
-            }
-        }
-        rings
-    }
-
-    /// Moves both rings further (m, rad).
-    pub(in crate::dynamics) fn move_in_space(&mut self, motion: &[f64; RINGS]) {
-        for (i, by) in motion.iter().enumerate() {
-            let (ring, k) = (i / COORDINATES, i % COORDINATES);
-            if k < 2 {
-                [&mut self.shaft, &mut self.housing][ring].position[k] += by;
-            } else {
-                self.beyond[ring].position[k] += by;
-            }
-        }
-    }
-}
-
 impl Model {
     /// What ball `j` meets as all that changes.
     pub(in crate::dynamics) fn changing_ball_motion(
@@ -53,7 +28,7 @@ impl Model {
             let Turn { angle, speed } = at.frames.0[i];
             Turn { angle: changing(angle, by.frames[i][0]), speed: changing(speed, by.frames[i][1]) }
         };
-        let change = by.rings();
+        let change = &by.rings;
         let ring = |i: usize| RingInSpace {
             position: std::array::from_fn(|k| changing(rings[i].position[k], change[i].position[k])),
             velocity: std::array::from_fn(|k| changing(rings[i].velocity[k], change[i].velocity[k])),
@@ -119,9 +94,7 @@ impl Model {
                 }
             }
         }
-        let [shaft, housing] = sums;
-        (change.shaft, change.housing) = (Vector::new(shaft[0], shaft[1]), Vector::new(housing[0], housing[1]));
-        change.beyond = [shaft, housing].map(|[_, _, z, m_x, m_y]| [z, m_x, m_y]);
+        change.rings = sums;
     }
 
     /// Forces of a ball as all that it meets changes; of one in balance `by` is given the change of its place.

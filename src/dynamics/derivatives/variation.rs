@@ -33,7 +33,8 @@ impl Model {
             Turn { angle: changing(angle, d_angle), speed: changing(speed, d_speed) }
         });
         let e_r = changing_vector(at.e_r, at.e_t * turn);
-        let housing = changing_vector(now.housing.velocity, by.housing.velocity);
+        let [inner, outer] = by.in_plane();
+        let housing = changing_vector(now.housing.velocity, outer.velocity);
         ElementMotion {
             element: j,
             e_r,
@@ -43,8 +44,8 @@ impl Model {
             alpha: changing(at.alpha, alpha),
             path: changing(at.path, by.path[j]),
             path_rate: changing(w, by.radial_velocity[j]) - housing.dot(&e_r),
-            offset: changing_vector(at.offset, by.offset()),
-            drift: changing_vector(at.drift, by.drift()),
+            offset: changing_vector(at.offset, outer.position - inner.position),
+            drift: changing_vector(at.drift, outer.velocity - inner.velocity),
             frames: Frames(frames),
             films: at.films,
             film_speed: changing(at.film_speed, by.film_speed),
@@ -71,7 +72,7 @@ impl Model {
         (change.cage_torque, change.shaft_torque, change.torque_by_acceleration) = (0.0, 0.0, Vector::zeros());
         for j in 0..self.element_count {
             let forces = self.changing_forces(j, cells, state, &now, by, shortcuts);
-            let housing = changing_vector(now.housing.velocity, by.housing.velocity);
+            let housing = changing_vector(now.housing.velocity, by.housing_velocity());
             let (at, ContactForces { inner, outer }) = (&forces.at, forces.forces);
             rings += on_rings(&forces);
             (change.inner[j], change.outer[j]) = (magnitude(&inner), magnitude(&outer));
@@ -94,7 +95,9 @@ impl Model {
                 (by.path[j], by.radial_velocity[j]) = (path.by[0], w.by[0]);
             }
         }
-        (change.shaft, change.housing) = (Vector::new(rings[0], rings[1]), Vector::new(rings[2], rings[3]));
+        for (i, force) in rings.iter().enumerate() {
+            change.rings[i / 2][i % 2] = *force;
+        }
     }
 
     /// Forces on element `j`, in motion or in balance, as all that it meets changes.

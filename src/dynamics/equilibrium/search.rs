@@ -24,8 +24,8 @@ use super::limits::{
 };
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{ElementMotion, Meeting, Shortcuts};
-use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, Quadratic, SMOOTH};
-use crate::dynamics::quasi_static::{RadialForce, Rings, stacked};
+use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PathMotion, SMOOTH};
+use crate::dynamics::quasi_static::{RadialForce, Rings, in_plane, stacked};
 use crate::numerics::plane::Vector;
 use crate::numerics::sin_cos;
 use std::f64::consts::FRAC_PI_4;
@@ -221,8 +221,7 @@ impl Model {
             contact_sum += inner.norm();
             largest = largest.max(inner.amax()).max(outer.amax());
         }
-        let load = |axis: &Quadratic| axis.at(0.0);
-        let loads = Rings::from_iterator(excitation.shaft_load.iter().chain(&excitation.housing_load).map(load));
+        let loads = in_plane(&excitation.load.map(|ring| ring.map(|load| load.at(0.0))));
         let supports = Rings::from(self.supports.ring_stiffnesses()).component_mul(&rings);
         force += loads - supports;
         largest = largest.max(loads.amax()).max(supports.amax());

@@ -3,7 +3,7 @@
 
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::derivatives::Variation;
-use crate::dynamics::parameters::{Cells, Excitation, Model, RINGS, Space};
+use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, Model, RINGS, Space};
 use crate::numerics::number::Dual;
 use nalgebra::{DMatrix, DVector};
 
@@ -14,7 +14,7 @@ impl Model {
         space: &Space,
         excitation: &Excitation,
         (cells, state): (&Cells, &[f64]),
-        loads: &[f64; RINGS],
+        loads: &[[f64; COORDINATES]; 2],
         by: &mut Variation,
         shortcuts: &mut Shortcuts,
     ) -> Option<()> {
@@ -23,7 +23,7 @@ impl Model {
         if self.elements_in_balance() {
             // Their places follow in `Model::vary`.
             let mut force = self.vary_rings_in_space(space, (&now, &rings), (cells, state), by, shortcuts);
-            force.iter_mut().zip(loads).for_each(|(force, load)| *force += load);
+            force.iter_mut().zip(loads.as_flattened()).for_each(|(force, load)| *force += load);
             let mut jacobian = [[0.0; RINGS]; RINGS];
             for k in 0..RINGS {
                 let (mut moved, mut unit) = (Variation::in_space(self.element_count), [0.0; RINGS]);
@@ -38,7 +38,8 @@ impl Model {
             return Some(());
         }
         let [v, _] = self.layout.axial()?;
-        let (mut force, mut jacobian) = (*loads, [[0.0; RINGS]; RINGS]);
+        let (mut force, mut jacobian) = ([0.0; RINGS], [[0.0; RINGS]; RINGS]);
+        force.copy_from_slice(loads.as_flattened());
         let mut answers = Vec::with_capacity(self.element_count);
         for j in 0..self.element_count {
             let (in_cells, place) = (self.cells_of(cells, j), [state[j], state[v + j]]);
@@ -62,8 +63,8 @@ impl Model {
             let follows = |row: usize| tangent.ball[row].iter().zip(motion).map(|(by, x)| by * x).sum::<f64>();
             (by.path[j], by.axial[j]) = (direct[0] + follows(0), direct[1] + follows(1));
             let e_r = self.ball_motion(j, &now, &rings, shortcuts).0.e_r;
-            by.radial_velocity[j] = by.housing.velocity.x * e_r[0] + by.housing.velocity.y * e_r[1];
-            by.axial_velocity[j] = by.beyond[1].velocity[2];
+            let [x, y, z, ..] = by.rings[1].velocity;
+            (by.radial_velocity[j], by.axial_velocity[j]) = (x * e_r[0] + y * e_r[1], z);
         }
         Some(())
     }

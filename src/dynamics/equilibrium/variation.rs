@@ -9,33 +9,27 @@
 
 use crate::dynamics::contacts::{ElementMotion, Linearized, Shortcuts};
 use crate::dynamics::derivatives::Variation;
-use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS};
-use crate::dynamics::quasi_static::{Balanced, RingJacobian, Rings};
+use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model};
+use crate::dynamics::quasi_static::{Balanced, RingJacobian, in_plane};
 use crate::numerics::number::Dual;
 
 impl Model {
     /// Completes a change of inputs at the equilibrium `state` by what it does to rings and elements. `by` comes with
-    /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads on both rings
-    /// (N), and of their loads along z and moments about x and y (N m). `None` if the rings have no stiffness against
-    /// them.
+    /// the changes of prescribed rings and of the cage speed; `loads` are those of the external loads (N) and moments
+    /// (N m) on both rings. `None` if the rings have no stiffness against them.
     pub fn vary_equilibrium(
         &self,
         excitation: &Excitation,
         cells: &Cells,
         state: &[f64],
-        loads: (Rings, [[f64; 3]; 2]),
+        loads: &[[f64; COORDINATES]; 2],
         by: &mut Variation,
         shortcuts: &mut Shortcuts,
     ) -> Option<()> {
-        let (loads, beyond) = loads;
         if let Some(space) = &self.space {
-            let mut all = [0.0; RINGS];
-            for (i, all) in all.iter_mut().enumerate() {
-                let (ring, k) = (i / COORDINATES, i % COORDINATES);
-                *all = if k < 2 { loads[2 * ring + k] } else { beyond[ring][k - 2] };
-            }
-            return self.vary_spatial_equilibrium(space, excitation, (cells, state), &all, by, shortcuts);
+            return self.vary_spatial_equilibrium(space, excitation, (cells, state), loads, by, shortcuts);
         }
+        let loads = in_plane(loads);
         let now = self.kinematics(excitation, 0.0, state);
         if self.elements_in_balance() {
             // Their paths follow in `Model::vary`.
@@ -43,7 +37,7 @@ impl Model {
             let mut jacobian = RingJacobian::zeros();
             for axis in 0..2 {
                 let mut moved = Variation::new(self.element_count);
-                moved.housing.position[axis] = 1.0;
+                moved.rings[1].position[axis] = 1.0;
                 let by_offset = self.vary_rings(cells, state, &now, &moved, shortcuts);
                 jacobian.set_column(axis, &-by_offset);
                 jacobian.set_column(2 + axis, &by_offset);
@@ -61,7 +55,7 @@ impl Model {
         for j in 0..self.element_count {
             let element = self.at_start(j, cells, state, &now, shortcuts);
             by.path[j] = self.balanced_change(&element, state, &now, by, shortcuts).path;
-            by.radial_velocity[j] = by.housing.velocity.dot(&element.at.e_r);
+            by.radial_velocity[j] = by.housing_velocity().dot(&element.at.e_r);
         }
         Some(())
     }

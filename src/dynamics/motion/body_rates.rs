@@ -18,8 +18,8 @@ impl Model {
         let Stage { excitation, cage: &CageState { tau, .. }, state, ahead } = *stage;
         let supports = &self.supports;
         if let Some(i) = self.layout.shaft {
-            let force =
-                Vector::new(excitation.shaft_load[0].at(tau) + shaft_x, excitation.shaft_load[1].at(tau) + shaft_y);
+            let load = &excitation.load[0];
+            let force = Vector::new(load[0].at(tau) + shaft_x, load[1].at(tau) + shaft_y);
             supports.shaft.ring_rates(simd, &now.shaft, force).store(derivative, i);
         }
         let mut reaction = Vector::zeros();
@@ -30,7 +30,7 @@ impl Model {
             sensor.rates(simd, v, force).store(derivative, i);
         }
         if let Some(i) = self.layout.housing {
-            let load = &excitation.housing_load;
+            let load = &excitation.load[1];
             let force =
                 Vector::new(load[0].at(tau) + (housing_x + reaction.x), load[1].at(tau) + (housing_y + reaction.y));
             supports.housing.ring_rates(simd, &now.housing, force).store(derivative, i);

@@ -6,6 +6,9 @@
 use crate::numerics::number::Scalar;
 use crate::numerics::wrap;
 
+/// Coordinates of a ring: x, y, z, and its tilt about x and about y.
+pub const COORDINATES: usize = 5;
+
 /// c₀ + c₁τ + ½c₂τ²
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Quadratic(pub [f64; 3]);
@@ -140,15 +143,6 @@ impl WholeAngle {
     }
 }
 
-/// What acts on a ring beyond the plane: along z, and about x and y.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Beyond {
-    /// Prescribed position (m) and tilts (rad); zero when they are not prescribed.
-    pub motion: [Cubic; 3],
-    /// External load (N) and moments (N m).
-    pub load: [Quadratic; 3],
-}
-
 /// What acts from outside during one communication step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Excitation {
@@ -160,16 +154,11 @@ pub struct Excitation {
     pub cage: Quadratic,
     /// How the frames of defects turn, in the order of [`Frame`].
     pub frames: [Turning; 3],
-    /// Prescribed position of the inner ring (m), x and y; zero when it is not prescribed.
-    pub shaft: [Cubic; 2],
-    /// Prescribed position of the outer ring (m).
-    pub housing: [Cubic; 2],
-    /// External load on the inner ring (N).
-    pub shaft_load: [Quadratic; 2],
-    /// External load on the outer ring (N).
-    pub housing_load: [Quadratic; 2],
-    /// What acts on the inner and on the outer ring beyond the plane.
-    pub beyond: [Beyond; 2],
+    /// Prescribed coordinates of the inner and of the outer ring: x, y, z (m), and tilts about x and y (rad); zero when
+    /// they are not prescribed.
+    pub motion: [[Cubic; COORDINATES]; 2],
+    /// External loads on the inner and on the outer ring along the same axes (N) and about them (N m).
+    pub load: [[Quadratic; COORDINATES]; 2],
     /// Speed of the inner ring against the outer (rad/s), which oil films follow.
     pub relative_speed: Quadratic,
 }
@@ -179,24 +168,6 @@ impl Excitation {
     pub fn standing(cage_angle: f64, frames: [f64; 3]) -> Self {
         let frames = frames.map(|start| Turning { start, ..Turning::default() });
         Self { cage_start: cage_angle, frames, ..Self::default() }
-    }
-
-    /// Prescribed coordinate of the inner ring (0) or the outer (1): x, y, z (m), and tilts about x and y (rad).
-    #[inline]
-    pub fn motion(&self, ring: usize, axis: usize) -> &Cubic {
-        match axis {
-            0 | 1 => &[&self.shaft, &self.housing][ring][axis],
-            _ => &self.beyond[ring].motion[axis - 2],
-        }
-    }
-
-    /// Load on it (N, N m) along and about the same axes.
-    #[inline]
-    pub fn load(&self, ring: usize, axis: usize) -> &Quadratic {
-        match axis {
-            0 | 1 => &[&self.shaft_load, &self.housing_load][ring][axis],
-            _ => &self.beyond[ring].load[axis - 2],
-        }
     }
 
     /// Cage angle at `tau` (rad).

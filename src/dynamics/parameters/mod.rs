@@ -12,15 +12,13 @@ mod ring_motion;
 mod spatial;
 mod supports;
 
-pub use excitation::{Beyond, Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
+pub use excitation::{COORDINATES, Cubic, Excitation, Frame, Frames, Quadratic, Turn, Turning, WholeAngle};
 pub use irregularity::{Irregularity, Lead, LeadPieces};
 pub use kinematics::{CageState, FramedKinematics, Kinematics, RingState};
 pub use layout::Layout;
 pub use model::Model;
 pub use raceway::{Ahead, Cells, Centred, DefectiveElement, Defects, Raceway, SMOOTH, SurfaceDefect};
-pub use spatial::{
-    COORDINATES, FEW_SPATIAL_BODIES, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies, force_slot,
-};
+pub use spatial::{FEW_SPATIAL_BODIES, RINGS, RingInSpace, SPATIAL_BODIES, Space, SpatialBodies, force_slot};
 pub use supports::{
     BODIES, Bodies, BodyMatrix, FEW_BODIES, PLANE_RINGS, SensorModes, SensorSupport, Support, Supports,
 };

@@ -1,7 +1,7 @@
 //! How the rings of a model move: from the state where it has them, else as the host prescribes.
 
 use crate::dynamics::parameters::{
-    Cubic, Excitation, FramedKinematics, Kinematics, Layout, Model, RingInSpace, RingState, Stage, moved,
+    COORDINATES, Cubic, Excitation, FramedKinematics, Kinematics, Layout, Model, RingInSpace, RingState, Stage, moved,
 };
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
@@ -21,21 +21,21 @@ impl Model {
         let (shaft, housing) = (self.shaft.motion, self.housing.motion);
         Kinematics {
             cage: *cage,
-            shaft: ring_state(self.layout.shaft, shaft, &excitation.shaft, cage.tau, state, ahead),
-            housing: ring_state(self.layout.housing, housing, &excitation.housing, cage.tau, state, ahead),
+            shaft: ring_state(self.layout.shaft, shaft, &excitation.motion[0], cage.tau, state, ahead),
+            housing: ring_state(self.layout.housing, housing, &excitation.motion[1], cage.tau, state, ahead),
         }
     }
 
     /// Position and velocity of the inner ring, wherever they come from.
     #[inline(always)]
     pub fn shaft_state(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.shaft, self.shaft.motion, &excitation.shaft, tau, state, None)
+        ring_state(self.layout.shaft, self.shaft.motion, &excitation.motion[0], tau, state, None)
     }
 
     /// Position and velocity of the outer ring, wherever they come from.
     #[inline(always)]
     pub fn housing_state(&self, excitation: &Excitation, tau: f64, state: &[f64]) -> RingState {
-        ring_state(self.layout.housing, self.housing.motion, &excitation.housing, tau, state, None)
+        ring_state(self.layout.housing, self.housing.motion, &excitation.motion[1], tau, state, None)
     }
 
     /// Velocity and acceleration of the inner and the outer ring, each in a [`RingState`] of rates: zero for a ring at
@@ -93,7 +93,7 @@ impl Model {
 fn ring_state(
     index: Option<usize>,
     motion: Motion,
-    prescribed: &[Cubic; 2],
+    [x, y, ..]: &[Cubic; COORDINATES],
     tau: f64,
     state: &[f64],
     ahead: Option<f64>,
@@ -104,13 +104,10 @@ fn ring_state(
             let position = Vector::new(moved(state[i], velocity.x, ahead), moved(state[i + 1], velocity.y, ahead));
             RingState { position, velocity }
         }
-        (None, Motion::Host) => {
-            let [x, y] = prescribed;
-            RingState {
-                position: Vector::new(x.at(tau), y.at(tau)),
-                velocity: Vector::new(x.rate_at(tau), y.rate_at(tau)),
-            }
-        }
+        (None, Motion::Host) => RingState {
+            position: Vector::new(x.at(tau), y.at(tau)),
+            velocity: Vector::new(x.rate_at(tau), y.rate_at(tau)),
+        },
         _ => RingState::default(),
     }
 }

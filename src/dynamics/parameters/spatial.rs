@@ -14,7 +14,7 @@ use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::groove::Groove;
 use crate::contact::law::elastic_law;
 use crate::contact::rolling::RacewaySide;
-use crate::dynamics::parameters::excitation::{Excitation, Frame};
+use crate::dynamics::parameters::excitation::{COORDINATES, Excitation, Frame};
 use crate::dynamics::parameters::kinematics::RingState;
 use crate::dynamics::parameters::layout::Layout;
 use crate::geometry::hertz_constant::rolling_radii;
@@ -22,8 +22,6 @@ use crate::numerics::number::Scalar;
 use crate::numerics::plane::Vector;
 use crate::scene::{Bearing, DegreesOfFreedom, Gyroscopic, MOST_SENSORS, Motion, Ring, Scene};
 
-/// Coordinates of a ring.
-pub const COORDINATES: usize = 5;
 /// Coordinates of both rings.
 pub const RINGS: usize = 2 * COORDINATES;
 /// Coordinates of the bodies beside the elements: those of the inner ring, of the outer ring, and each sensor's.
@@ -259,9 +257,16 @@ pub const fn force_slot(ring: usize, coordinate: usize) -> usize {
 
 impl RingInSpace {
     /// What of it is in the plane.
-    pub(in crate::dynamics) fn in_plane(&self) -> RingState {
+    pub(crate) fn in_plane(&self) -> RingState {
         let [position, velocity] = [self.position, self.velocity].map(|of| Vector::new(of[0], of[1]));
         RingState { position, velocity }
+    }
+}
+
+impl From<RingState> for RingInSpace {
+    fn from(RingState { position, velocity }: RingState) -> Self {
+        let [position, velocity] = [position, velocity].map(|of| [of.x, of.y, 0.0, 0.0, 0.0]);
+        Self { position, velocity }
     }
 }
 
@@ -269,8 +274,7 @@ impl Excitation {
     /// Both rings' motion at `tau` as the host prescribes it.
     fn prescribed(&self, ring: usize, tau: f64) -> RingInSpace {
         let mut found = RingInSpace::default();
-        for k in 0..COORDINATES {
-            let motion = self.motion(ring, k);
+        for (k, motion) in self.motion[ring].iter().enumerate() {
             (found.position[k], found.velocity[k]) = (motion.at(tau), motion.rate_at(tau));
         }
         found
@@ -278,9 +282,8 @@ impl Excitation {
 
     /// Velocity and acceleration of a ring at `tau` as the host prescribes them.
     pub(in crate::dynamics) fn prescribed_rates(&self, ring: usize, tau: f64) -> RingInSpace {
-        let plane = if ring == 0 { &self.shaft } else { &self.housing };
         let mut found = RingInSpace::default();
-        for (k, motion) in plane.iter().chain(&self.beyond[ring].motion).enumerate() {
+        for (k, motion) in self.motion[ring].iter().enumerate() {
             (found.position[k], found.velocity[k]) = (motion.rate_at(tau), motion.second_at(tau));
         }
         found
@@ -289,11 +292,8 @@ impl Excitation {
     /// External loads on both rings (N, N m), and their rates.
     pub(in crate::dynamics) fn loads_in_space(&self, tau: f64) -> [[f64; RINGS]; 2] {
         let mut found = [[0.0; RINGS]; 2];
-        for (ring, plane) in [&self.shaft_load, &self.housing_load].into_iter().enumerate() {
-            for (k, load) in plane.iter().chain(&self.beyond[ring].load).enumerate() {
-                let i = COORDINATES * ring + k;
-                (found[0][i], found[1][i]) = (load.at(tau), load.rate_at(tau));
-            }
+        for (i, load) in self.load.as_flattened().iter().enumerate() {
+            (found[0][i], found[1][i]) = (load.at(tau), load.rate_at(tau));
         }
         found
     }

@@ -8,7 +8,7 @@ mod tangent;
 
 pub use tangent::{RingJacobian, Rings};
 
-pub(crate) use tangent::stacked;
+pub(crate) use tangent::{in_plane, stacked};
 
 pub(in crate::dynamics) use balance_lanes::SmoothElements;
 pub(in crate::dynamics) use element_balance::InBalance;

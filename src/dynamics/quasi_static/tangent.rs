@@ -7,7 +7,7 @@
 //! An element that nothing touches does not answer.
 
 use crate::dynamics::contacts::{ContactForces, ElementMotion, Linearized, Shortcuts};
-use crate::dynamics::parameters::{Cells, FramedKinematics, Model, PathMotion};
+use crate::dynamics::parameters::{COORDINATES, Cells, FramedKinematics, Model, PathMotion};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::Vector;
 use crate::scene::Motion;
@@ -181,6 +181,11 @@ impl Model {
 pub(in crate::dynamics) fn add_by_offset<T: Scalar>(jacobian: &mut RingJacobian<T>, axis: usize, rings: &Rings<T>) {
     jacobian.column_mut(axis).zip_apply(rings, |sum, force| *sum -= force);
     jacobian.column_mut(2 + axis).zip_apply(rings, |sum, force| *sum += force);
+}
+
+/// What of both rings' coordinates is in the plane, as one.
+pub(crate) fn in_plane(rings: &[[f64; COORDINATES]; 2]) -> Rings {
+    Rings::from_fn(|i, _| rings[i / 2][i % 2])
 }
 
 /// Vectors of the inner and the outer ring as one.

@@ -3,15 +3,14 @@
 use super::states::Place;
 use super::variables::ExchangeRole;
 use crate::dynamics::parameters::Layout;
-use crate::simulation::interface::RingName;
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
 /// Row and column of a ring's slot: which ring, whether it is a velocity, which axis.
-fn ring_slot(layout: &Layout, i: usize) -> Option<(RingName, bool, usize)> {
+fn ring_slot(layout: &Layout, i: usize) -> Option<(usize, bool, usize)> {
     let of = |start: Option<usize>, ring| {
         start.filter(|&start| i >= start && i < start + 4).map(|start| (ring, i - start >= 2, (i - start) % 2))
     };
-    of(layout.shaft, RingName::Shaft).or_else(|| of(layout.housing, RingName::Housing))
+    of(layout.shaft, 0).or_else(|| of(layout.housing, 1))
 }
 
 impl Simulation {
@@ -88,8 +87,8 @@ impl Simulation {
                 change.variation.radial_velocity[i - layout.radial_velocity] += by;
             }
             Place::Slot(i) => match ring_slot(&layout, i) {
-                Some((ring, true, axis)) => change.ring(ring).velocity[axis] += by,
-                Some((ring, false, axis)) => change.ring(ring).position[axis] += by,
+                Some((ring, true, axis)) => change.variation.rings[ring].velocity[axis] += by,
+                Some((ring, false, axis)) => change.variation.rings[ring].position[axis] += by,
                 None => {
                     if let Some(k) = layout.sensor_indices().position(|start| i == start || i == start + 1) {
                         change.sensors[k][usize::from(!layout.is_position(i))] += by;
@@ -114,9 +113,8 @@ impl Simulation {
                 change.forces.radial_acceleration[i - layout.radial_velocity]
             }
             Place::Slot(i) => match ring_slot(&layout, i) {
-                Some((ring, true, axis)) => change.accelerations[ring.index()][axis],
-                Some((RingName::Shaft, false, axis)) => variation.shaft.velocity[axis],
-                Some((RingName::Housing, false, axis)) => variation.housing.velocity[axis],
+                Some((ring, true, axis)) => change.accelerations[ring][axis],
+                Some((ring, false, axis)) => variation.rings[ring].velocity[axis],
                 None => {
                     let sensor = layout.sensor_indices().position(|start| i == start || i == start + 1);
                     sensor.map_or(0.0, |k| {

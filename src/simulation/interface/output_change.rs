@@ -1,14 +1,9 @@
 //! A small change of the bearing, of which the derivatives of outputs are made.
 
-use super::quantity::RingName;
 use crate::dynamics::contacts::Forces;
 use crate::dynamics::derivatives::{ForceChange, Variation};
-use crate::dynamics::parameters::{
-    COORDINATES, Excitation, Frame, Model, RINGS, RingInSpace, RingState, SPATIAL_BODIES,
-};
-use crate::dynamics::quasi_static::Rings;
+use crate::dynamics::parameters::{COORDINATES, Excitation, Frame, Model, RINGS, RingInSpace, SPATIAL_BODIES};
 use crate::numerics::number::Dual;
-use crate::numerics::plane::Vector;
 use crate::scene::MOST_SENSORS;
 
 /// A small change of everything that outputs are made of, and what it makes of the forces.
@@ -16,16 +11,12 @@ use crate::scene::MOST_SENSORS;
 pub(in crate::simulation) struct Change {
     pub(in crate::simulation) variation: Variation,
     pub(in crate::simulation) forces: ForceChange,
-    /// Of the external loads on inner and outer ring (N).
-    pub(in crate::simulation) loads: Rings,
-    /// Of the loads along z (N) and the moments (N m) on both rings.
-    pub(in crate::simulation) loads_beyond: [[f64; 3]; 2],
+    /// Of the external loads (N) and moments (N m) on inner and outer ring.
+    pub(in crate::simulation) loads: [[f64; COORDINATES]; 2],
     /// Of the sensors' positions and velocities.
     pub(in crate::simulation) sensors: [[f64; 2]; MOST_SENSORS],
-    /// Of the accelerations of inner and outer ring (m/s²).
-    pub(in crate::simulation) accelerations: [Vector; 2],
-    /// Of those along z (m/s²) and of the tilts (rad/s²).
-    pub(in crate::simulation) accelerations_beyond: [[f64; 3]; 2],
+    /// Of the accelerations of inner and outer ring (m/s²) and of their tilts (rad/s²).
+    pub(in crate::simulation) accelerations: [[f64; COORDINATES]; 2],
     pub(in crate::simulation) sensor_accelerations: [f64; MOST_SENSORS],
     /// Of what they measure, by the motion of the modes under them.
     pub(in crate::simulation) by_sensor_modes: [f64; MOST_SENSORS],
@@ -42,11 +33,9 @@ impl Change {
         Self {
             variation: if in_space { Variation::in_space(count) } else { Variation::new(count) },
             forces: if in_space { ForceChange::in_space(count) } else { ForceChange::new(count) },
-            loads_beyond: [[0.0; 3]; 2],
-            accelerations_beyond: [[0.0; 3]; 2],
-            loads: Rings::zeros(),
+            loads: Default::default(),
             sensors: [[0.0; 2]; MOST_SENSORS],
-            accelerations: [Vector::zeros(); 2],
+            accelerations: Default::default(),
             sensor_accelerations: [0.0; MOST_SENSORS],
             by_sensor_modes: [0.0; MOST_SENSORS],
             modes: vec![0.0; modes],
@@ -57,20 +46,12 @@ impl Change {
 
     pub(in crate::simulation) fn clear(&mut self) {
         self.variation.clear();
-        (self.loads, self.accelerations) = (Rings::zeros(), [Vector::zeros(); 2]);
+        (self.loads, self.accelerations) = Default::default();
         (self.sensors, self.sensor_accelerations) = ([[0.0; 2]; MOST_SENSORS], [0.0; MOST_SENSORS]);
         self.by_sensor_modes = [0.0; MOST_SENSORS];
         self.modes.fill(0.0);
         self.cage_torque = 0.0;
         self.stiffness = [[0.0; COORDINATES]; COORDINATES];
-        (self.loads_beyond, self.accelerations_beyond) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
-    }
-
-    pub(in crate::simulation) fn ring(&mut self, name: RingName) -> &mut RingState {
-        match name {
-            RingName::Shaft => &mut self.variation.shaft,
-            RingName::Housing => &mut self.variation.housing,
-        }
     }
 
     /// Change of the angle that the contact of element `j` leaves to a shoulder (rad).
@@ -93,21 +74,11 @@ impl Change {
     ) {
         let Some(space) = &model.space else { return };
         let (mut x, mut v, mut acting) = ([0.0; SPATIAL_BODIES], [0.0; SPATIAL_BODIES], [0.0; RINGS]);
-        let planes = [
-            (&self.variation.shaft, self.forces.shaft, [self.loads[0], self.loads[1]]),
-            (&self.variation.housing, self.forces.housing, [self.loads[2], self.loads[3]]),
-        ];
-        for (ring, (plane, force, load)) in planes.into_iter().enumerate() {
-            for k in 0..COORDINATES {
-                let i = COORDINATES * ring + k;
-                (x[i], v[i], acting[i]) = if k < 2 {
-                    (plane.position[k], plane.velocity[k], force[k] + load[k])
-                } else {
-                    let beyond = &self.variation.beyond[ring];
-                    let sum = self.forces.beyond[ring][k - 2] + self.loads_beyond[ring][k - 2];
-                    (beyond.position[k], beyond.velocity[k], sum)
-                };
-            }
+        for i in 0..RINGS {
+            let (ring, k) = (i / COORDINATES, i % COORDINATES);
+            let moved = &self.variation.rings[ring];
+            (x[i], v[i]) = (moved.position[k], moved.velocity[k]);
+            acting[i] = self.forces.rings[ring][k] + self.loads[ring][k];
         }
         for (k, &[of_x, of_v]) in self.sensors.iter().enumerate() {
             (x[RINGS + k], v[RINGS + k]) = (of_x, of_v);
@@ -116,13 +87,8 @@ impl Change {
         let by_speed = [Frame::Shaft, Frame::Housing].map(|frame| self.variation.frames[frame as usize][1]);
         let found = space.vary_accelerations((&x, &v), &acting, rings, [speeds, by_speed]);
         for i in 0..RINGS {
-            let (ring, k) = (i / COORDINATES, i % COORDINATES);
             // What the host prescribes has been set before.
-            if k < 2 {
-                self.accelerations[ring][k] += found[i];
-            } else {
-                self.accelerations_beyond[ring][k - 2] += found[i];
-            }
+            self.accelerations[i / COORDINATES][i % COORDINATES] += found[i];
         }
         self.sensor_accelerations.copy_from_slice(&found[RINGS..]);
     }

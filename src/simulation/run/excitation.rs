@@ -1,7 +1,7 @@
 //! What acts on the bearing from outside: from input variables and their derivatives to polynomials of time, and back.
 
 use super::state::{Ended, State};
-use crate::dynamics::parameters::{Beyond, Cubic, Excitation, Quadratic, Turning};
+use crate::dynamics::parameters::{Cubic, Excitation, Quadratic, Turning};
 use crate::geometry::kinematics::Ratios;
 use crate::simulation::interface::{Inputs, RingInputs};
 
@@ -46,19 +46,13 @@ pub(in crate::simulation) fn excitation(state: &State, inputs: &Inputs, ratios: 
         } else {
             Default::default()
         },
-        shaft: [motion(&shaft, 0), motion(&shaft, 1)],
-        housing: [motion(&housing, 0), motion(&housing, 1)],
-        shaft_load: [0, 1].map(|axis| load(shaft.load[axis])),
-        housing_load: [0, 1].map(|axis| load(housing.load[axis])),
-        beyond: [&shaft, &housing].map(|ring| Beyond {
-            motion: [2, 3, 4].map(|axis| motion(ring, axis)),
-            load: [2, 3, 4].map(|axis| load(ring.load[axis])),
-        }),
+        motion: [shaft, housing].map(|ring| std::array::from_fn(|axis| motion(&ring, axis))),
+        load: [shaft, housing].map(|ring| ring.load.map(load)),
         relative_speed: Quadratic([speed, acceleration, 0.0]),
     };
     if !stepping {
         excitation.cage.0[2] += state.ended.cage;
-        for (motion, acceleration) in excitation.housing.iter_mut().zip(state.ended.housing) {
+        for (motion, acceleration) in excitation.motion[1].iter_mut().zip(state.ended.housing) {
             motion.0[2] += acceleration;
         }
     }
@@ -76,7 +70,7 @@ pub(in crate::simulation) fn follow(
 ) {
     for (of, ring) in inputs.rings().into_iter().enumerate() {
         for axis in 0..inputs.axes {
-            let (motion, load) = (ended.motion(of, axis), ended.load(of, axis));
+            let (motion, load) = (ended.motion[of][axis], ended.load[of][axis]);
             let ends = [
                 (ring.position[axis], motion.at(step)),
                 (ring.velocity[axis], motion.rate_at(step)),
@@ -98,7 +92,7 @@ pub(in crate::simulation) fn follow(
     state.ended = Ended::default();
     if given {
         let now = excitation(state, inputs, ratios, false);
-        let left = |axis: usize| ended.housing[axis].second_at(step) - now.housing[axis].second_at(0.0);
+        let left = |axis: usize| ended.motion[1][axis].second_at(step) - now.motion[1][axis].second_at(0.0);
         state.ended = Ended { cage: ended.cage.0[2] - now.cage.0[2], housing: [left(0), left(1)] };
     }
 }

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use crate::contact::element_on_raceway::ElementOnRaceway;
 use crate::contact::rolling::{RacewaySide, Rolling};
 use crate::dynamics::contacts::{Forces, Shortcuts};
-use crate::dynamics::parameters::{Beyond, Excitation, Model, Quadratic};
+use crate::dynamics::parameters::{Excitation, Model, Quadratic};
 use crate::scene::{Bearing, DefectOn, DegreesOfFreedom, Motion, Scene};
 use crate::surface::Surface;
 
@@ -108,15 +108,9 @@ fn balanced_angle(scene: &Scene) -> Option<f64> {
     let space = model.space.as_ref()?;
     let speeds = [scene.shaft_speed, scene.housing_speed.unwrap_or(0.0)];
     let cage = model.ratios.cage[0] * speeds[0] + model.ratios.cage[1] * speeds[1];
-    let load = |load: [f64; 2]| load.map(Quadratic::constant);
     let excitation = Excitation {
         cage: Quadratic([0.0, cage, 0.0]),
-        shaft_load: load(scene.shaft.load),
-        housing_load: load(scene.housing.load),
-        beyond: [&scene.shaft, &scene.housing].map(|ring| {
-            let [m_x, m_y] = ring.tilt.load_moment;
-            Beyond { load: [ring.axial.load, m_x, m_y].map(Quadratic::constant), ..Beyond::default() }
-        }),
+        load: [scene.shaft, scene.housing].map(|ring| ring.loads().map(Quadratic::constant)),
         ..Excitation::standing(scene.cage.initial_angle, [0.0; 3])
     };
     let mut state = vec![0.0; model.layout.len];

@@ -13,9 +13,7 @@ use crate::statics::{StaticError, surfaces_and_map};
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{
-    Beyond, COORDINATES, Cells, Cubic, Excitation, Layout, Model, Quadratic, WholeAngle,
-};
+use brinell::dynamics::parameters::{COORDINATES, Cells, Cubic, Excitation, Layout, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{DegreesOfFreedom, Motion, Ring, Scene};
 use brinell::simulation::setup::{build_model, largest_force};
@@ -28,9 +26,8 @@ pub struct Assembly {
     model: Model,
     /// The same with a shaft that moves under its load, where a held shaft has one: says where it is held.
     seat: Option<Model>,
-    loads: [[f64; 2]; 2],
-    /// Loads on both rings beyond the plane: along z (N), about x and y (N m).
-    beyond: [[f64; 3]; 2],
+    /// Loads on both rings along x, y and z (N), about x and y (N m).
+    loads: [[f64; COORDINATES]; 2],
     /// Angles of cage, inner and outer ring at the start of the scene (rad).
     angles: [f64; 3],
     /// Of the first defect.
@@ -165,11 +162,7 @@ impl Assembly {
         Ok(Self {
             model,
             seat: seat.transpose()?,
-            loads: [scene.shaft.load, scene.housing.load],
-            beyond: [&scene.shaft, &scene.housing].map(|ring| {
-                let [m_x, m_y] = ring.tilt.load_moment;
-                [ring.axial.load, m_x, m_y]
-            }),
+            loads: [scene.shaft.loads(), scene.housing.loads()],
             angles: [scene.cage.initial_angle, scene.shaft_initial_angle, scene.housing_initial_angle],
             defect: of_first,
             edges: Edge::all(scene, &surfaces),
@@ -188,9 +181,9 @@ impl Assembly {
         if self.model.is_even() { TAU / self.model.element_count as f64 } else { TAU }
     }
 
-    /// Loads on the inner and on the outer ring (N).
+    /// Loads on the inner and on the outer ring in the plane (N).
     pub fn loads(&self) -> [[f64; 2]; 2] {
-        self.loads
+        self.loads.map(|[x, y, ..]| [x, y])
     }
 
     /// Where the scene's first defect is; `None` without one.
@@ -271,15 +264,15 @@ impl Assembly {
     pub(crate) fn at_rest(&self, cage_angle: f64) -> Result<AtRest, StaticError> {
         let model = &self.model;
         let count = model.element_count;
-        let [shaft_load, housing_load] = self.loads.map(|load| load.map(Quadratic::constant));
         let frames = [self.angles[1], self.angles[2], model.spin_with_cage(cage_angle - self.angles[0])];
-        let beyond = self.beyond.map(|load| Beyond { load: load.map(Quadratic::constant), ..Beyond::default() });
-        let mut excitation =
-            Excitation { shaft_load, housing_load, beyond, ..Excitation::standing(cage_angle, frames) };
+        let load = self.loads.map(|ring| ring.map(Quadratic::constant));
+        let mut excitation = Excitation { load, ..Excitation::standing(cage_angle, frames) };
         if let Some(seat) = &self.seat {
             let (_, state) = self.equilibrium(seat, &excitation)?;
             let position = seat.shaft_state(&excitation, 0.0, &state).position;
-            excitation.shaft = [position.x, position.y].map(|x| Cubic([x, 0.0, 0.0, 0.0]));
+            for (motion, &x) in excitation.motion[0].iter_mut().zip(&position) {
+                *motion = Cubic([x, 0.0, 0.0, 0.0]);
+            }
         }
         let (cells, state) = self.equilibrium(model, &excitation)?;
         let mut forces = Forces::of(model);
@@ -313,7 +306,7 @@ impl Assembly {
         let found = model.equilibrium_with_cells(excitation, &mut state);
         let cells = found.map_err(|cause: EquilibriumError| StaticError::Equilibrium {
             cage_angle_deg: excitation.cage_start.to_degrees(),
-            load: [self.loads[0][0], self.loads[0][1], self.beyond[0][0]],
+            load: [0, 1, 2].map(|axis| self.loads[0][axis]),
             cause,
         })?;
         Ok((cells, state))

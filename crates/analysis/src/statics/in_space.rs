@@ -7,7 +7,7 @@
 
 use super::{StaticError, evenly_spaced, surfaces_and_map};
 use brinell::dynamics::contacts::Forces;
-use brinell::dynamics::parameters::{Beyond, COORDINATES, Excitation, Layout, Model, Quadratic, WholeAngle};
+use brinell::dynamics::parameters::{COORDINATES, Excitation, Layout, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{AxialSupport, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, TiltSupport};
 use brinell::simulation::setup::{build_model, largest_force};
@@ -109,16 +109,11 @@ impl BearingInSpace {
         let (model, shaft) = (&self.model, &self.scene.shaft);
         let spin = model.spin_with_cage(cage_angle - self.scene.cage.initial_angle);
         let frames = [self.scene.shaft_initial_angle, self.scene.housing_initial_angle, spin];
-        let [m_x, m_y] = shaft.tilt.load_moment;
-        let load = [shaft.axial.load, m_x, m_y].map(Quadratic::constant);
-        let excitation = Excitation {
-            shaft_load: shaft.load.map(Quadratic::constant),
-            beyond: [Beyond { load, ..Beyond::default() }, Beyond::default()],
-            ..Excitation::standing(cage_angle, frames)
-        };
+        let load = [shaft.loads().map(Quadratic::constant), Default::default()];
+        let excitation = Excitation { load, ..Excitation::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
         let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(|cause| {
-            let ([x, y], z) = (shaft.load, shaft.axial.load);
+            let [x, y, z, ..] = shaft.loads();
             StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: [x, y, z], cause }
         })?;
         let mut forces = Forces::of(model);

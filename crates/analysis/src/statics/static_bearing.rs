@@ -226,10 +226,12 @@ impl StaticBearing {
         let model = &self.model;
         let spin = model.spin_with_cage(cage_angle - self.scene.cage.initial_angle);
         let frames = [self.scene.shaft_initial_angle, self.scene.housing_initial_angle, spin];
+        let [x, y] = load;
+        let on_shaft = [x, y, 0.0, 0.0, 0.0].map(Quadratic::constant);
         let excitation =
-            Excitation { shaft_load: load.map(Quadratic::constant), ..Excitation::standing(cage_angle, frames) };
+            Excitation { load: [on_shaft, Default::default()], ..Excitation::standing(cage_angle, frames) };
         let mut state = vec![0.0; model.layout.len];
-        let (cage_angle_deg, [x, y]) = (cage_angle.to_degrees(), load);
+        let cage_angle_deg = cage_angle.to_degrees();
         let refused = |cause| StaticError::Equilibrium { cage_angle_deg, load: [x, y, 0.0], cause };
         let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(refused)?;
         let mut forces = Forces::of(model);

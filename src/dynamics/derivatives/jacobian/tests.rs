@@ -75,8 +75,14 @@ pub(crate) fn lively_with(
         Bearer::Element(_) => DefectOn::Element { element: 0, tilt: 0.0 },
     };
     let model = Model::new(&scene, rings, own);
-    let motion = |start: f64| [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
-    let load = |start: f64| [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
+    let motion = |start: f64| {
+        let [x, y] = [Cubic([start, 2e-3, -3.0, 4e4]), Cubic([-start, -1e-3, 5.0, -7e4])];
+        [x, y, Cubic::default(), Cubic::default(), Cubic::default()]
+    };
+    let load = |start: f64| {
+        let [x, y] = [Quadratic([start, 2e4, 1e6]), Quadratic([-900.0, -4e4, 2e6])];
+        [x, y, Quadratic::default(), Quadratic::default(), Quadratic::default()]
+    };
     let excitation = Excitation {
         cage_start: cage_angle,
         cage_turns: 2,
@@ -86,11 +92,8 @@ pub(crate) fn lively_with(
             Turning::default(),
             Turning { start: 0.1, since: Quadratic([0.0, -1200.0, -9e4]) },
         ],
-        shaft: motion(-1e-6),
-        housing: motion(12e-6),
-        shaft_load: load(100.0),
-        housing_load: load(-30.0),
-        beyond: Default::default(),
+        motion: [motion(-1e-6), motion(12e-6)],
+        load: [load(100.0), load(-30.0)],
         relative_speed: Quadratic([700.0, 8e6, 0.0]),
     };
     (model, excitation)

@@ -84,8 +84,7 @@ impl Builder<'_> {
         }
         for ring in RINGS {
             let ([of, what], parts) = (ring.names(), self.ring(ring));
-            let [m_x, m_y] = parts.tilt.load_moment;
-            let loads = [parts.load[0], parts.load[1], parts.axial.load, m_x, m_y];
+            let loads = parts.loads();
             match self.motion(ring) {
                 Motion::Internal => {
                     for axis in self.moving(ring) {

@@ -20,8 +20,8 @@ mod by_parameter;
 use super::life::UpToDate;
 use super::running::Present;
 use crate::dynamics::derivatives::Going;
-use crate::dynamics::parameters::{Excitation, Frame, Kinematics};
-use crate::dynamics::quasi_static::stacked;
+use crate::dynamics::parameters::{Excitation, Frame, Kinematics, RingInSpace};
+use crate::dynamics::quasi_static::in_plane;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::{
     Change, Input, Quantity, RingName, as_many, dependencies, out_of_range, value_access,
@@ -101,13 +101,12 @@ impl Simulation {
         let acceleration = self.along_knowns(knowns, seed)?;
         if !self.run.state.started {
             let progress = &self.run.state.progress;
-            let loads = (self.change.loads, self.change.loads_beyond);
             let Present { excitation, evaluation, .. } = &mut self.present;
             let found = self.run.model.vary_equilibrium(
                 excitation,
                 &progress.cells,
                 &progress.state,
-                loads,
+                &self.change.loads,
                 &mut self.change.variation,
                 &mut evaluation.forces.shortcuts,
             );
@@ -192,14 +191,9 @@ impl Simulation {
                     change.variation.frames[Frame::Spin as usize][1] += ratios.spin[i] * value;
                     change.variation.film_speed += if ring == RingName::Shaft { value } else { -value };
                 }
-                Input::Load(name, k @ 2..) => change.loads_beyond[name.index()][k - 2] += value,
-                Input::Position(name, k @ 2..) => change.variation.beyond[name.index()].position[k] += value,
-                Input::Velocity(name, k @ 2..) => change.variation.beyond[name.index()].velocity[k] += value,
-                Input::Acceleration(name, k @ 2..) => change.accelerations_beyond[name.index()][k - 2] += value,
-                Input::Load(RingName::Shaft, axis) => change.loads[axis] += value,
-                Input::Load(RingName::Housing, axis) => change.loads[2 + axis] += value,
-                Input::Position(name, axis) => change.ring(name).position[axis] += value,
-                Input::Velocity(name, axis) => change.ring(name).velocity[axis] += value,
+                Input::Load(name, axis) => change.loads[name.index()][axis] += value,
+                Input::Position(name, axis) => change.variation.rings[name.index()].position[axis] += value,
+                Input::Velocity(name, axis) => change.variation.rings[name.index()].velocity[axis] += value,
                 Input::Acceleration(name, axis) => change.accelerations[name.index()][axis] += value,
             }
         }
@@ -217,7 +211,11 @@ impl Simulation {
         variation.film_speed = excitation.relative_speed.rate_at(0.0);
         variation.path.copy_from_slice(&derivative[..z]);
         variation.radial_velocity.copy_from_slice(&derivative[layout.radial_velocity..][..z]);
-        [variation.shaft, variation.housing] = self.run.model.ring_rates(excitation, 0.0, derivative);
+        let model = &self.run.model;
+        variation.rings = match model.space {
+            Some(_) => model.ring_rates_in_space(excitation, 0.0, derivative),
+            None => model.ring_rates(excitation, 0.0, derivative).map(RingInSpace::from),
+        };
         for (sensor, i) in change.sensors.iter_mut().zip(layout.sensor_indices()) {
             *sensor = [derivative[i], derivative[i + 1]];
         }
@@ -226,19 +224,11 @@ impl Simulation {
                 self.run.model.sensor_modes.rate(k, derivative[i + 1], &self.run.state.progress.sensor_modes);
         }
         // Those of internal rings follow from the forces' change.
-        change.accelerations = [&excitation.shaft, &excitation.housing].map(|[x, y]| Vector::new(x.0[3], y.0[3]));
-        for (axis, load) in excitation.shaft_load.iter().chain(&excitation.housing_load).enumerate() {
-            change.loads[axis] = load.rate_at(0.0);
-        }
+        change.accelerations = excitation.motion.map(|ring| ring.map(|motion| motion.0[3]));
+        change.loads = excitation.load.map(|ring| ring.map(|load| load.rate_at(0.0)));
         let Some([v, w_z]) = layout.axial() else { return };
-        change.variation.axial.copy_from_slice(&self.present.evaluation.derivative[v..][..z]);
-        change.variation.axial_velocity.copy_from_slice(&self.present.evaluation.derivative[w_z..][..z]);
-        change.variation.beyond =
-            self.run.model.ring_rates_in_space(excitation, 0.0, &self.present.evaluation.derivative);
-        for (ring, beyond) in excitation.beyond.iter().enumerate() {
-            change.accelerations_beyond[ring] = beyond.motion.map(|motion| motion.0[3]);
-            change.loads_beyond[ring] = beyond.load.map(|load| load.rate_at(0.0));
-        }
+        change.variation.axial.copy_from_slice(&derivative[v..][..z]);
+        change.variation.axial_velocity.copy_from_slice(&derivative[w_z..][..z]);
     }
 
     /// From the change of state and inputs to that of forces, accelerations and, if it is asked for, stiffness. The
@@ -264,13 +254,13 @@ impl Simulation {
         } else if self.run.state.started {
             let (variation, forces) = (&change.variation, &change.forces);
             let cage = excitation.cage_at(0.0);
-            let (shaft, housing) = (variation.shaft, variation.housing);
+            let [shaft, housing] = variation.in_plane();
             let moved = Kinematics { cage, shaft, housing };
             let [mut x, mut v] = moved.bodies();
             for (k, &[of_x, of_v]) in change.sensors.iter().enumerate() {
                 (x[4 + k], v[4 + k]) = (of_x, of_v);
             }
-            let acting = stacked(forces.shaft, forces.housing) + change.loads;
+            let acting = in_plane(&forces.rings) + in_plane(&change.loads);
             let accelerations = self.run.model.supports.accelerations(&x, &v, &acting);
             for (i, acceleration) in accelerations.iter().enumerate().take(4) {
                 // What the host prescribes has been set before.
@@ -279,7 +269,8 @@ impl Simulation {
             change.sensor_accelerations.copy_from_slice(&accelerations.as_slice()[4..]);
         }
         let by_acceleration = change.forces.torque_by_acceleration;
-        change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&change.accelerations[1]);
+        let [x, y, ..] = change.accelerations[1];
+        change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&Vector::new(x, y));
         let wanted =
             |&reference: &u32| matches!(self.interface.quantities[reference as usize], Quantity::Stiffness(..));
         if unknowns.iter().any(wanted) {
@@ -319,33 +310,21 @@ impl Simulation {
     /// What the change makes of one output.
     pub(in crate::simulation) fn changed(&self, quantity: Quantity) -> f64 {
         let Change { variation, forces, .. } = &self.change;
-        let ring = |name: RingName| match name {
-            RingName::Shaft => (0, &variation.shaft, forces.shaft),
-            RingName::Housing => (1, &variation.housing, forces.housing),
-        };
         match quantity {
-            Quantity::Position(name, k @ 2..) => variation.beyond[name.index()].position[k],
-            Quantity::Velocity(name, k @ 2..) => variation.beyond[name.index()].velocity[k],
-            Quantity::Acceleration(name, k @ 2..) => self.change.accelerations_beyond[name.index()][k - 2],
-            Quantity::Force(name, k @ 2..) => forces.beyond[name.index()][k - 2],
-            Quantity::MeanForce(name, k @ 2..) | Quantity::NextMeanForce(name, k @ 2..) if !self.run.state.started => {
-                forces.beyond[name.index()][k - 2]
-            }
-            Quantity::Probe(k @ 2..) => variation.beyond[0].position[k] - variation.beyond[1].position[k],
-            Quantity::Position(name, axis) => ring(name).1.position[axis],
-            Quantity::Velocity(name, axis) => ring(name).1.velocity[axis],
-            Quantity::Acceleration(name, axis) => self.change.accelerations[ring(name).0][axis],
-            Quantity::Force(name, axis) => ring(name).2[axis],
+            Quantity::Position(name, axis) => variation.rings[name.index()].position[axis],
+            Quantity::Velocity(name, axis) => variation.rings[name.index()].velocity[axis],
+            Quantity::Acceleration(name, axis) => self.change.accelerations[name.index()][axis],
+            Quantity::Force(name, axis) => forces.rings[name.index()][axis],
             // Before the first step the mean is the force itself.
             Quantity::MeanForce(name, axis) | Quantity::NextMeanForce(name, axis) if !self.run.state.started => {
-                ring(name).2[axis]
+                forces.rings[name.index()][axis]
             }
             Quantity::Stiffness(row, column) => -self.change.stiffness[row][column],
             Quantity::SensorAcceleration(k) => {
                 self.run.model.sensor_modes.direct(k) * self.change.sensor_accelerations[k]
                     + self.change.by_sensor_modes[k]
             }
-            Quantity::Probe(axis) => variation.shaft.position[axis] - variation.housing.position[axis],
+            Quantity::Probe(axis) => variation.rings[0].position[axis] - variation.rings[1].position[axis],
             Quantity::CageAngle => self.cage_change()[0],
             Quantity::ElementAngle(j) => self.element_turn(j),
             Quantity::CageSpeed => self.cage_change()[1],

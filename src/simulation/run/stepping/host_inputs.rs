@@ -73,7 +73,7 @@ impl Simulation {
         self.ahead.force = None;
         let (count, history) = (self.interface.inputs.count, &mut self.run.state.history);
         let axes = self.interface.inputs.axes;
-        let velocity = |ring: usize, axis: usize| excitation.motion(ring, axis).0[1];
+        let velocity = |ring: usize, axis: usize| excitation.motion[ring][axis].0[1];
         if history.step > 0.0 {
             history.earlier = [history.step, history.earlier[0]];
             history.means[1] = history.means[0];
