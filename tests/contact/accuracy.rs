@@ -1,6 +1,5 @@
 //! How far a contact map is from the grid it was made from, on the three kinds of surface: a vertical edge, a measured
 //! trace, a rough topography.
-#![allow(clippy::unwrap_used)]
 
 use crate::support;
 use std::fmt::Write;

@@ -1,6 +1,5 @@
 //! The softness of a sharp edge: against exact solutions of a body that ends, and finite elements of one that goes on
 //! below a step.
-#![allow(clippy::unwrap_used)]
 
 use crate::er16k::OUTER as ER16K;
 use brinell::contact::error::ContactError;

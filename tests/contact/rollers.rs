@@ -1,5 +1,4 @@
 //! Cylindrical rollers: the standard's static tables, published laws beside it, and what a line contact must do.
-#![allow(clippy::unwrap_used)]
 
 use RollerProfile::{Logarithmic, Straight};
 use brinell::contact::law::{Elasticity, elastic_law};

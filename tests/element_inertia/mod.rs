@@ -1,6 +1,5 @@
 //! Elements without inertia, in radial balance at every instant: their limits, snaps, saved states and derivatives, and
 //! the model with inertia beside it.
-#![allow(clippy::unwrap_used)]
 
 mod derivatives;
 mod measured;

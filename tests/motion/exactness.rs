@@ -5,8 +5,6 @@
 //! program is what compiler flags can change: the golden runs hold under each of them, `for cpu in x86-64 x86-64-v3
 //! native; do RUSTFLAGS="-C target-cpu=$cpu" cargo test --workspace --release --test golden; done`.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::counting;
 use crate::support::{Named, shipped};
 use brinell::dynamics::contacts::Forces;

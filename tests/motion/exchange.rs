@@ -1,5 +1,4 @@
 //! Model Exchange: integrated by somebody else a bearing moves as by itself, and its Jacobian is that of differences.
-#![allow(clippy::unwrap_used)]
 
 use crate::support::shipped;
 use brinell::scene::{ContactLaw, ElementInertia, Motion, Ring, Scene};

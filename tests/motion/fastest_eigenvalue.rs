@@ -1,5 +1,4 @@
 //! The fastest eigenvalue that steps are chosen by, [`Jacobian::fastest`], against all eigenvalues of the Jacobian.
-#![allow(clippy::unwrap_used)]
 
 use crate::support::{Named, shipped};
 use brinell::dynamics::contacts::Shortcuts;

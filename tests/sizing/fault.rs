@@ -1,9 +1,6 @@
 //! Which part of the bearing is damaged, how spalls of the inner raceway are sized, and what an answer is worth: from
 //! signals that are made here, by the kinematics of an element of finite size, or by the library's own simulation.
 
-// What a test calls may end it like the test itself.
-#![allow(clippy::unwrap_used)]
-
 use crate::machine::{RATE, Spall, scene, signal, signal_of};
 use brinell::scene::ContactLaw;
 use brinell::simulation::Simulation;

@@ -1,5 +1,4 @@
 //! The shaft's speed out of its own lines.
-#![allow(clippy::unwrap_used)]
 
 use brinell::scene::Bearing;
 use brinell_analysis::spectra::{PLAUSIBLE, find_speed};

@@ -1,5 +1,4 @@
 //! Modes out of responses that are known, noisy, or none.
-#![allow(clippy::unwrap_used)]
 
 use brinell::scene::SensorMode;
 use brinell_analysis::spectra::{FrequencyResponse, ResponseError, response};

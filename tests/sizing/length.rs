@@ -1,9 +1,6 @@
 //! Sizing of spalls from signals that are made here, by the kinematics of an element of finite size, or by the
 //! library's own simulation. No recording of a machine is needed.
 
-// What a test calls may end it like the test itself.
-#![allow(clippy::unwrap_used)]
-
 use crate::machine::{RATE, scene, signal};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::Simulation;

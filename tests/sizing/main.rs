@@ -1,4 +1,5 @@
 //! Which part is damaged and how long its spall is, from signals that are made here or simulated.
+#![allow(clippy::unwrap_used)]
 
 mod fault;
 mod found_speed;

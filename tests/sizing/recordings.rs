@@ -4,9 +4,6 @@
 //! a file of lines `file,rig,fault,length,speed,rate,elements,diameter,pitch`: fault `outer`, `inner`, `element` or
 //! `none`, length in degrees of the raceway or empty, speed and rate in Hz, diameters in mm; files beside the list.
 
-// What a test calls may end it like the test itself.
-#![allow(clippy::unwrap_used)]
-
 use crate::machine::{RATE, scene, signal};
 use brinell::geometry::kinematics::{self, Frequencies};
 use brinell::scene::{Bearing, Scene};

@@ -1,0 +1,207 @@
+//! Cylindrical rollers in motion: closed forms at the extremes, energy, both methods, defects of every body.
+
+use crate::support::{Named, shipped};
+use brinell::contact::law::elastic_law;
+use brinell::contact::rolling::RacewaySide;
+use brinell::geometry::kinematics::cage_ratio;
+use brinell::geometry::line_contact::line_constant;
+use brinell::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Roller, RollerProfile, RollingElement, Scene};
+use brinell::simulation::Method;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+fn healthy() -> Scene {
+    shipped("nu205-healthy")
+}
+
+/// The rings held by the host, straight rollers.
+fn hosted() -> Scene {
+    let mut scene = healthy();
+    (scene.shaft, scene.housing) = (Ring::hosted(), Ring::hosted());
+    scene.sensors.clear();
+    scene.bearing.element = straight(9e-3);
+    scene
+}
+
+fn straight(length: f64) -> RollingElement {
+    RollingElement::CylindricalRoller(Roller { length, profile: RollerProfile::Straight, laminae: Roller::LAMINAE })
+}
+
+#[test]
+fn at_a_hundred_thousand_turns_a_minute_rollers_press_outwards_with_their_centrifugal_force() {
+    let mut scene = hosted();
+    scene.shaft_speed = 100_000.0 / 60.0 * TAU;
+    let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
+    // A cylinder of 7.5 × 9 mm of 7800 kg/m³.
+    let mass = scene.bearing.mass_of_element();
+    assert!((mass / (PI * 3.75e-3 * 3.75e-3 * 9e-3 * 7800.0) - 1.0).abs() < 1e-14, "{mass}");
+    let dimensions = scene.bearing.clone();
+    let mut bearing = Named::started(scene);
+    let [got, expected] = bearing.pressed_outwards(&dimensions, omega);
+    // Gravity turns with 670 Hz far below the contact's resonance: quasi-static within (670/20000)² of 0.03 N.
+    assert!((got - expected).abs() < 1e-5 * expected, "{got} {expected}");
+    assert_eq!(bearing.get("element[3].force.inner"), 0.0);
+}
+
+#[test]
+fn a_preload_presses_each_roller_with_half_of_it_in_each_contact() {
+    let mut scene = hosted();
+    (scene.bearing.radial_clearance, scene.gravity, scene.shaft_speed) = (-5e-6, [0.0; 2], 0.0);
+    let expected = line_constant(9e-3) * 2.5e-6f64.powf(10.0 / 9.0);
+    let mut bearing = Named::started(scene);
+    bearing.run(1e-3, 20);
+    let got = [bearing.get("element[5].force.inner"), bearing.get("element[5].force.outer")];
+    // The tolerance of 1e-5 of the approach, with the power 10/9.
+    assert!(got.iter().all(|got| (got / expected - 1.0).abs() < 1.2e-5), "{got:?} {expected}");
+}
+
+#[test]
+fn a_load_that_jumps_settles_in_the_static_balance() {
+    // Without clearance, with preload, and with a hundred rollers.
+    let hundred = Bearing { radial_clearance: 0.0, ..Bearing::steel_rollers(100, 1.1e-3, 2e-3, 39e-3) };
+    let cases = [
+        ("no clearance", Bearing { radial_clearance: 0.0, ..healthy().bearing }, Damping::HuntCrossley(0.5)),
+        ("preload", Bearing { radial_clearance: -2e-6, ..healthy().bearing }, Damping::HuntCrossley(5.0)),
+        ("yielding seat", Bearing { outer_compliance: 2e-9, ..healthy().bearing }, Damping::Proportional(1e-5)),
+        ("a hundred rollers", hundred, Damping::Proportional(1e-5)),
+    ];
+    for (what, bearing, damping) in cases {
+        let count = bearing.element_count;
+        let mut scene = Scene { bearing, shaft_speed: 0.0, sensors: Vec::new(), ..healthy() };
+        // At the default of 1e-5 rollers, as balls, go on vibrating by up to 7e-4 of the force.
+        (scene.contact.damping, scene.tolerance) = (damping, 1e-7);
+        let load = scene.shaft.load[1];
+        let mut at_rest = Named::started(scene.clone());
+        scene.shaft.load[1] = 0.2 * load;
+        let mut bearing = Named::started(scene);
+        bearing.set("shaft.load.y", load);
+        // Rings' vibrations decay with 2m/c = 5 and 6 ms: e^-25 after 150 ms.
+        bearing.run(1e-3, 150);
+        let largest = |b: &mut Named| b.inner_forces(count).into_iter().fold(0.0, f64::max);
+        let expected = largest(&mut at_rest);
+        // Rollers that gravity alone holds go on bouncing, by which the force swings by up to 1.4e-3: its mean over 20
+        // ms.
+        let samples: Vec<f64> = (0..400)
+            .map(|_| {
+                bearing.run(5e-5, 1);
+                largest(&mut bearing)
+            })
+            .collect();
+        let got = samples.iter().sum::<f64>() / 400.0;
+        println!("{what}: mean off by {:.1e}", got / expected - 1.0);
+        assert!((got / expected - 1.0).abs() < 2e-5, "{what}: {got} N, in static equilibrium {expected} N");
+        // Gravity on the rollers aside, the contacts carry the load.
+        let force = at_rest.get("shaft.force.y");
+        assert!((force + load).abs() < 1e-9 * load.abs(), "{what}: {force}");
+    }
+}
+
+#[test]
+fn a_crowned_roller_without_damping_keeps_its_energy() {
+    let mut scene = hosted();
+    scene.bearing.element = healthy().bearing.element;
+    (scene.bearing.radial_clearance, scene.gravity, scene.shaft_speed) = (-10e-6, [0.0; 2], 0.0);
+    scene.contact.damping = Damping::HuntCrossley(0.0);
+    scene.tolerance = 1e-7;
+    let law = elastic_law(&scene.bearing, RacewaySide::Outer);
+    let (mass, z) = (scene.bearing.mass_of_element(), 13usize);
+    // ∫Q dδ by the trapezoidal rule, whose error of 1e-8 is far below what is looked for.
+    let stored = |force: f64| {
+        let (delta, steps) = (law.approach_under(force), 20_000);
+        let at = |i: u32| law.elastic(delta * f64::from(i) / f64::from(steps));
+        let inside: f64 = (1..steps).map(at).sum();
+        (inside + 0.5 * at(steps)) * delta / f64::from(steps)
+    };
+    let mut bearing = Named::started(scene);
+    let energy = |b: &mut Named| {
+        let w = b.0.state_vector()[z.next_multiple_of(8)];
+        let forces = [b.get("element[1].force.inner"), b.get("element[1].force.outer")];
+        forces.map(stored).iter().sum::<f64>() + 0.5 * mass * w * w
+    };
+    let rest = energy(&mut bearing);
+    // Element 1 is under −y: the ring that moves down at once presses it.
+    bearing.set("shaft.y", -3e-6);
+    let start = energy(&mut bearing);
+    let mut drift: f64 = 0.0;
+    for _ in 0..100 {
+        bearing.run(1e-4, 1);
+        drift = drift.max((energy(&mut bearing) - start).abs());
+    }
+    // Some 400 periods at a tolerance of 1e-7 of the approach.
+    let share = drift / (start - rest).abs();
+    assert!(start > 1.05 * rest && share < 1e-3, "{share}: {rest} {start}");
+}
+
+#[test]
+fn both_methods_agree_on_a_spall_under_rollers() {
+    let run = |method: Option<Method>, tolerance: f64| -> Vec<f64> {
+        let mut scene = shipped("nu205-inner");
+        scene.tolerance = tolerance;
+        let mut bearing = Named::started(scene);
+        if let Some(method) = method {
+            bearing.0.set_method(method);
+        }
+        let mut found = Vec::new();
+        for _ in 0..60 {
+            bearing.run(1e-4, 1);
+            found.extend(["shaft.force.y", "element[1].force.inner"].map(|name| bearing.get(name)));
+        }
+        found
+    };
+    let (found, expected) = (run(None, 1e-6), run(Some(Method::Rodas), 1e-7));
+    let worst = found.iter().zip(&expected).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
+    // Of 1500 N, through entry, flight and strike; the spall empties the roller under the load.
+    assert!(worst < 1.5, "{worst} N");
+    let of_element: Vec<f64> = found.iter().skip(1).step_by(2).copied().collect();
+    assert!(of_element[..18].iter().all(|&force| force > 500.0), "{of_element:?}");
+    assert!(of_element.contains(&0.0), "{of_element:?}");
+}
+
+#[test]
+fn a_defect_of_any_body_unloads_rollers_and_turns_with_its_body() {
+    for on in [DefectOn::Outer, DefectOn::Inner, DefectOn::Element { element: 0, tilt: 0.0 }] {
+        let mut scene = shipped("nu205-inner");
+        scene.defects[0].on = on;
+        // Into the load zone: on an element it faces the outer raceway after a millisecond.
+        scene.defects[0].angle = match on {
+            DefectOn::Outer => -FRAC_PI_2 + 0.05,
+            DefectOn::Inner => scene.defects[0].angle,
+            DefectOn::Element { .. } => 0.4,
+        };
+        let mut bearing = Named::started(scene);
+        let (mut least, mut start) = (f64::INFINITY, 0.0);
+        for i in 0..400 {
+            bearing.run(1e-5, 1);
+            let force = bearing.get("element[1].force.outer");
+            (least, start) = (least.min(force), if i == 0 { force } else { start });
+        }
+        assert!(start > 600.0 && least < 5.0, "{on:?}: {start} N at the start, least {least} N");
+    }
+}
+
+#[test]
+fn map_and_grid_give_a_roller_the_same_way_into_a_spall() {
+    let run = |law: ContactLaw| -> Vec<f64> {
+        let mut scene = shipped("nu205-inner");
+        scene.contact.law = law;
+        scene.contact.cells = Some([32, 8]);
+        scene.contact.largest_force = Some(1200.0);
+        let mut bearing = Named::started(scene);
+        let mut found = Vec::new();
+        for _ in 0..30 {
+            bearing.run(1e-4, 1);
+            found.push(bearing.get("element[1].force.inner"));
+        }
+        found
+    };
+    let begun = std::time::Instant::now();
+    let [map, love, path] = [ContactLaw::Map, ContactLaw::Love, ContactLaw::Hertz].map(|law| {
+        let found = run(law);
+        println!("{law:?} {:?} {found:.1?}", begun.elapsed());
+        found
+    });
+    let largest = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+    // Of 758 N at the start, until 3 ms, on the edge and beyond.
+    assert!(largest(&map, &love) < 1.0, "{} N", largest(&map, &love));
+    // The path of a rigid roller is another law: it lets the roller go later and at once.
+    assert!(largest(&path, &love) > 30.0);
+}
