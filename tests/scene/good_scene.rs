@@ -20,6 +20,10 @@ speed_hz = 10
 motion = "internal"
 "#;
 
+fn read(text: &str) -> Scene {
+    brinell_scene_file::from_toml(text).unwrap()
+}
+
 const SPALL: &str = "[defect]\nangle_deg = -90\nlength_deg = 15.8\ndepth_um = 100\n";
 
 fn near(value: f64, expected: f64) -> bool {
@@ -29,7 +33,7 @@ fn near(value: f64, expected: f64) -> bool {
 
 #[test]
 fn quantities_arrive_in_si_units() {
-    let scene = brinell_scene_file::from_toml(&format!("{SHORT}[sensor]\n{SPALL}")).unwrap();
+    let scene = read(&format!("{SHORT}[sensor]\n{SPALL}"));
     assert!(near(scene.bearing.element_diameter, 7.94e-3));
     assert!(near(scene.bearing.pitch_diameter, 39.32e-3));
     assert_eq!(scene.bearing.radial_clearance, 5e-6);
@@ -48,7 +52,7 @@ fn quantities_arrive_in_si_units() {
 
 #[test]
 fn the_raceways_of_the_er16k_have_their_radii() {
-    let bearing = brinell_scene_file::from_toml(SHORT).unwrap().bearing;
+    let bearing = read(SHORT).bearing;
     assert!(near(bearing.outer_raceway_radius(), 23.6325e-3));
     // A difference: its rounding is that of the larger numbers.
     assert!((bearing.inner_raceway_radius() - 15.6875e-3).abs() < 1e-17);
@@ -56,7 +60,7 @@ fn the_raceways_of_the_er16k_have_their_radii() {
 
 #[test]
 fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
-    let length = |text: &str| match brinell_scene_file::from_toml(text).unwrap().defects.remove(0).shape {
+    let length = |text: &str| match read(text).defects.remove(0).shape {
         DefectShape::Spall { length, .. } => length,
         DefectShape::Profile(_) => panic!("not a spall"),
     };
@@ -67,7 +71,7 @@ fn a_length_in_millimetres_equals_the_same_arc_in_degrees() {
 
 #[test]
 fn what_is_left_out_gets_the_documented_default() {
-    let scene = brinell_scene_file::from_toml(SHORT).unwrap();
+    let scene = read(SHORT);
     assert_eq!(scene.bearing.outer_compliance, 0.0);
     assert_eq!(scene.description, "");
     assert_eq!(scene.gravity, [0.0, -9.81]);
@@ -86,15 +90,15 @@ fn what_is_left_out_gets_the_documented_default() {
 
 #[test]
 fn a_defect_asks_for_the_map_unless_a_law_is_given() {
-    let scene = brinell_scene_file::from_toml(&format!("{SHORT}{SPALL}")).unwrap();
+    let scene = read(&format!("{SHORT}{SPALL}"));
     assert_eq!(scene.contact.law, ContactLaw::Map);
-    let scene = brinell_scene_file::from_toml(&format!("{SHORT}{SPALL}[contact]\nlaw = \"love\"")).unwrap();
+    let scene = read(&format!("{SHORT}{SPALL}[contact]\nlaw = \"love\""));
     assert_eq!(scene.contact.law, ContactLaw::Love);
 }
 
 #[test]
 fn an_empty_sensor_table_is_the_15_khz_resonator() {
-    let sensor = brinell_scene_file::from_toml(&format!("{SHORT}[sensor]")).unwrap().sensors.remove(0);
+    let sensor = read(&format!("{SHORT}[sensor]")).sensors.remove(0);
     assert_eq!((sensor.mass, sensor.stiffness, sensor.damping), (1.0, 8.8826e9, 9424.8));
     let frequency = (sensor.stiffness / sensor.mass).sqrt() / (2.0 * PI);
     // The stiffness is printed with five digits.
@@ -103,30 +107,27 @@ fn an_empty_sensor_table_is_the_15_khz_resonator() {
 
 #[test]
 fn an_open_groove_is_remarked_upon_and_usual_ones_are_not() {
-    assert_eq!(brinell_scene_file::from_toml(SHORT).unwrap().remarks(), []);
+    assert_eq!(read(SHORT).remarks(), []);
     let grooves = "conformity_inner = 0.6\nconformity_outer = 126.0";
-    let scene = brinell_scene_file::from_toml(&SHORT.replace("groove_diameter_mm = 8.19", grooves)).unwrap();
+    let scene = read(&SHORT.replace("groove_diameter_mm = 8.19", grooves));
     assert_eq!(scene.remarks(), [Remark::OpenGroove { ring: "outer", conformity: 126.0 }]);
-    assert!(
-        scene.remarks()[0]
-            .to_string()
-            .contains("gets a ball's point contacts: cylindrical rollers are bearing.element")
-    );
+    let told = scene.remarks()[0].to_string();
+    assert!(told.contains("gets a ball's point contacts: cylindrical rollers are bearing.element"), "{told}");
 }
 
 #[test]
 fn a_hosted_ring_has_no_mass_of_its_own() {
     let text = SHORT.replace("motion = \"internal\"", "motion = \"host\"");
-    let scene = brinell_scene_file::from_toml(&text).unwrap();
+    let scene = read(&text);
     assert_eq!(scene.shaft.motion, Motion::Host);
     assert_eq!((scene.shaft.mass, scene.housing.stiffness), (0.0, 0.0));
 }
 
 #[test]
 fn the_model_identifier_is_a_c_identifier() {
-    assert_eq!(brinell_scene_file::from_toml(SHORT).unwrap().model_identifier(), "Brinell_er16k_tb1");
+    assert_eq!(read(SHORT).model_identifier(), "Brinell_er16k_tb1");
     for name in ["6205-epps", "-", "_a", "9", "a--b_C-7"] {
-        let identifier = brinell_scene_file::from_toml(&SHORT.replace("er16k-tb1", name)).unwrap().model_identifier();
+        let identifier = read(&SHORT.replace("er16k-tb1", name)).model_identifier();
         let (first, rest) = identifier.split_at(1);
         assert!(first.chars().all(|c| c.is_ascii_alphabetic()), "{identifier}");
         assert!(rest.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'), "{identifier}");
@@ -135,7 +136,7 @@ fn the_model_identifier_is_a_c_identifier() {
 
 #[test]
 fn a_scene_built_in_rust_is_that_of_the_shortest_file() {
-    let file = brinell_scene_file::from_toml(
+    let file = read(
         r#"
         name = "bearing"
         [bearing]
@@ -158,8 +159,7 @@ fn a_scene_built_in_rust_is_that_of_the_shortest_file() {
         length_mm = 2.0
         depth_um = 50.0
         "#,
-    )
-    .unwrap();
+    );
     let bearing = brinell::scene::Bearing::steel_balls(9, 7.94 / 1e3, 39.04 / 1e3);
     let builder = Scene::builder(bearing).sensor(brinell::scene::Sensor::default());
     let built = builder.clone().spall((-90f64).to_radians(), 2.0 / 1e3, 50.0 / 1e6).build().unwrap();
@@ -172,7 +172,7 @@ fn contact_laws_have_the_numbers_and_names_of_the_published_interface() {
     let interface = [(1, "hertz", ContactLaw::Hertz), (2, "map", ContactLaw::Map), (3, "love", ContactLaw::Love)];
     for (number, name, law) in interface {
         assert_eq!((law.number(), law.described().0, ContactLaw::numbered(number)), (number, name, Some(law)));
-        let scene = brinell_scene_file::from_toml(&format!("{SHORT}[contact]\nlaw = \"{name}\"")).unwrap();
+        let scene = read(&format!("{SHORT}[contact]\nlaw = \"{name}\""));
         assert_eq!(scene.contact.law, law);
     }
     assert_eq!(ContactLaw::ALL.len(), interface.len());
@@ -185,7 +185,7 @@ fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_th
                       8.19\n\
                       youngs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
     assert!(SHORT.contains(dimensions));
-    let with = |keys: &str| brinell_scene_file::from_toml(&SHORT.replace(dimensions, keys)).unwrap().bearing;
+    let with = |keys: &str| read(&SHORT.replace(dimensions, keys)).bearing;
     let published = "element_count = 9\nelement_diameter_mm = 7.94\npitch_diameter_mm = 39.04\nconformity_inner = \
                      0.52\n\
                      conformity_outer = 0.52\nyoungs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
@@ -199,15 +199,10 @@ fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_th
 
 #[test]
 fn nothing_is_asked_about_shipped_scenes() {
-    let folder = brinell_tests::root().join("scenes");
-    let mut count = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            let asked = brinell_scene_file::unit_questions(&std::fs::read_to_string(&path).unwrap());
-            assert!(asked.is_empty(), "{}: {}", path.display(), asked[0]);
-            count += 1;
-        }
+    let scenes = super::shipped_scenes::scenes();
+    assert!(scenes.len() > 15, "{}", scenes.len());
+    for (name, text) in scenes {
+        let asked = brinell_scene_file::unit_questions(&text);
+        assert!(asked.is_empty(), "{name}: {}", asked[0]);
     }
-    assert!(count > 15, "{count}");
 }

@@ -1,4 +1,5 @@
 //! What scenes and profiles may say, and what is said of those that may not be.
+#![allow(clippy::unwrap_used)]
 
 mod answers;
 mod bad_profile;

@@ -9,24 +9,14 @@ fn folder() -> PathBuf {
 }
 
 /// Name and text of every scene.
-fn scenes() -> Vec<(String, String)> {
-    let Ok(entries) = fs::read_dir(folder()) else { panic!("no folder scenes/") };
-    let files = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
-    let mut scenes = Vec::new();
-    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")) {
-        let Some(name) = path.file_stem().and_then(|stem| stem.to_str()) else {
-            panic!("{path:?} is not a name of letters")
-        };
-        scenes.push((name.to_owned(), read(&path)));
-    }
-    scenes
+pub(crate) fn scenes() -> Vec<(String, String)> {
+    let paths = fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
+    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    scenes.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), read(&path))).collect()
 }
 
 fn read(path: &Path) -> String {
-    match fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) => panic!("{path:?}: {error}"),
-    }
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"))
 }
 
 #[test]
@@ -44,8 +34,7 @@ fn every_shipped_scene_can_be_read_and_is_named_like_its_file() {
 fn every_surface_of_a_shipped_scene_can_be_loaded() {
     for (name, text) in scenes() {
         let scene = brinell_scene_file::from_toml(&text).unwrap();
-        let profiles: Vec<_> =
-            scene.profile_names().iter().map(|file| fs::read_to_string(folder().join(file)).unwrap()).collect();
+        let profiles: Vec<_> = scene.profile_names().iter().map(|file| read(&folder().join(file))).collect();
         let surfaces = Surface::load_all(&scene, profiles.iter().map(String::as_str));
         let surfaces = surfaces.unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(surfaces.len(), scene.defects.len(), "{name}");
@@ -57,9 +46,7 @@ fn every_surface_of_a_shipped_scene_can_be_loaded() {
 fn every_number_in_a_shipped_scene_has_a_source_or_is_assumed() {
     for (name, text) in scenes() {
         for line in text.lines().filter(|line| !line.starts_with('#')) {
-            let Some((_, value)) = line.split_once('=') else {
-                continue;
-            };
+            let Some((_, value)) = line.split_once('=') else { continue };
             let (value, comment) = value.split_once('#').unwrap_or((value, ""));
             if !value.contains('"') {
                 assert!(comment.trim().len() > 3, "{name}: `{line}` has no source");
@@ -70,7 +57,7 @@ fn every_number_in_a_shipped_scene_has_a_source_or_is_assumed() {
 
 #[test]
 fn the_stand_in_trace_has_the_length_that_was_reported() {
-    let trace = Profile::from_csv(&fs::read_to_string(folder().join("6205-epps-trace.csv")).unwrap()).unwrap();
+    let trace = Profile::from_csv(&read(&folder().join("6205-epps-trace.csv"))).unwrap();
     let deep: Vec<f64> = trace.points().iter().filter(|point| point.1 > 0.0).map(|point| point.0).collect();
     // 0.8 mm at the surface: the last points at depth lie within one spacing of 4 um of either edge.
     let length = deep[deep.len() - 1] - deep[0];
