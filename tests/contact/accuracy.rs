@@ -1,31 +1,24 @@
 //! How far a contact map is from the grid it was made from, on the three kinds of surface: a vertical edge, a measured
 //! trace, a rough topography.
 
-use crate::support;
-use std::fmt::Write;
-
 use crate::er16k::OUTER as ER16K;
+use crate::support;
 use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::love::{LoveContact, Resolution};
-use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::map::{ContactMap, MapSpecification};
 use brinell::contact::rolling::RacewaySide;
 use brinell::simulation::setup;
-use brinell::surface::{Surface, Topography};
+use brinell::surface::Surface;
 
 /// A shallow spall with sloped flanks, whose floor is rough by 1 µm and different at front and back; the element
 /// touches the floor.
 fn rough() -> Surface {
-    let mut text = String::from("arc_mm,axial_mm,depth_um\n");
-    for i in 0..=120 {
-        for j in 0..=40 {
-            let (s, y) = (f64::from(i) * 0.0065 - 0.39, f64::from(j) * 0.1 - 2.0);
-            let flank = ((0.35 - s.abs()) / 0.08).clamp(0.0, 1.0);
-            let waves =
-                (17.0 * s + 2.0 * y).sin() + 0.7 * (31.0 * s - 3.0 * y + 1.0).sin() + 0.5 * (5.0 * y + 9.0 * s).cos();
-            writeln!(text, "{s:.5},{y:.5},{:.5}", flank * (8.0 + waves)).unwrap();
-        }
-    }
-    Surface::Topography(Topography::from_csv(&text).unwrap())
+    Surface::Topography(crate::topography(-60..61, 0.0065, -20..21, 0.1, |s, y| {
+        let flank = ((0.35 - s.abs()) / 0.08).clamp(0.0, 1.0);
+        let waves =
+            (17.0 * s + 2.0 * y).sin() + 0.7 * (31.0 * s - 3.0 * y + 1.0).sin() + 0.5 * (5.0 * y + 9.0 * s).cos();
+        flank * (8.0 + waves)
+    }))
 }
 
 /// Differences of both forces between a map and a grid, over points that fill the map evenly: largest and root mean
@@ -36,8 +29,7 @@ fn compare(map: &ContactMap, grid: &mut LoveContact, points: usize) -> ([f64; 2]
     let stretches: Vec<[f64; 2]> = map.knots().chunks(2).map(|ends| [ends[0], ends[1]]).collect();
     for n in 0..points {
         let [from, to] = stretches[n % stretches.len()];
-        // Kronecker's sequence with the golden ratio's relatives.
-        let (q, t) = ((0.754_877_666 * n as f64).fract(), (0.569_840_291 * n as f64).fract());
+        let [q, t] = crate::spread(n);
         let s = from + q * (to - from);
         let u = grid.first_touch(s) + t * 1.3 * largest;
         let exact = grid.solve(u, s).unwrap();
@@ -60,7 +52,6 @@ fn demonstrate(name: &str, map: &ContactMap, surface: &Surface, element: Element
     let mut grid = LoveContact::new(element, surface, 1.8 * of.largest_approach, of.resolution).unwrap();
     let (worst, mean) = compare(map, &mut grid, 1000);
     let per_flank = map.nodes() / 2;
-    println!("{name}: {per_flank} nodes per flank, max {worst:?}, rms {mean:?}, while building {:?}", map.accuracy());
     // What was asked for, and a tenth of it; the budget of nodes the method is meant for.
     assert!(worst.iter().all(|&e| e <= 1e-3), "{name}: {worst:?}");
     assert!(mean.iter().all(|&e| e <= 1e-4), "{name}: {mean:?}");
@@ -97,6 +88,6 @@ fn the_map_follows_the_grid_over_a_rough_topography() {
     let specification =
         MapSpecification { resolution: Resolution { columns: 40, rows: 32 }, ..MapSpecification::new(10e-6) };
     let surface = rough();
-    let map = ContactMap::build(&surface, ER16K, specification, &mut Sequential(|_, _| ())).unwrap();
+    let map = crate::built(&surface, ER16K, specification);
     demonstrate("rough", &map, &surface, ER16K, specification);
 }

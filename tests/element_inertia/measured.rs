@@ -19,16 +19,7 @@ pub(crate) fn pair(scene: &Scene, variable: &str, time: f64) -> [Vec<f64>; 2] {
 }
 
 fn signal(scene: Scene, variable: &str, time: f64) -> Vec<f64> {
-    let mut bearing = Named::started(scene);
-    let reference = [bearing.reference(variable)];
-    let mut value = [0.0];
-    (0..(time * RATE) as usize)
-        .map(|_| {
-            bearing.0.step(1.0 / RATE).unwrap();
-            bearing.0.reals(&reference, &mut value).unwrap();
-            value[0]
-        })
-        .collect()
+    Named::started(scene).course([variable], 1.0 / RATE, (time * RATE) as usize).concat()
 }
 
 /// Root mean square in a band.

@@ -88,19 +88,8 @@ fn a_turning_bearing_runs_under_every_law_and_returns_to_the_same_bits() {
             scene.cage.initial_angle = -1.7;
             let [mut bearing, mut other] = [scene.clone(), scene].map(Named::started);
             for _ in 0..rounds {
-                let state = bearing.0.save();
-                bearing.run(7.7e-4, 2);
-                let first = names.map(|name| bearing.get(name).to_bits());
-                assert!(names.iter().all(|name| bearing.get(name).is_finite()), "{name}");
-                let steps = bearing.0.step_counts();
-                bearing.0.restore(&state).unwrap();
-                bearing.run(7.7e-4, 2);
-                assert_eq!((first, steps), (names.map(|name| bearing.get(name).to_bits()), bearing.0.step_counts()));
-                // By way of bytes in another that was somewhere else.
-                let state = other.0.state_from_bytes(&state.to_bytes()).unwrap();
-                other.0.restore(&state).unwrap();
-                other.run(7.7e-4, 2);
-                assert_eq!((first, steps), (names.map(|name| other.get(name).to_bits()), other.0.step_counts()));
+                bearing.goes_on_alike(&mut other, names, 7.7e-4, 2);
+                assert!(bearing.all(names).iter().all(|value| value.is_finite()), "{name}");
             }
         }
     }
@@ -128,11 +117,10 @@ fn a_loose_element_snaps_from_one_raceway_to_the_other_where_its_weight_along_th
         scene.cage.initial_angle = expected - 0.02;
         let mut bearing = Named::started(scene.clone());
         let names = ["element[1].path", "element[1].angle", "shaft.force.y", "housing.force.y", "shaft.y"];
-        let read = |bearing: &mut Named| names.map(|name| bearing.get(name));
-        let mut before = read(&mut bearing);
+        let mut before = bearing.all(names);
         let found = (0..(0.05 / step) as usize).find_map(|_| {
             bearing.run(step, 1);
-            let after = read(&mut bearing);
+            let after = bearing.all(names);
             let last = std::mem::replace(&mut before, after);
             (after[0] < -1e-6).then_some((last, after))
         });
@@ -157,15 +145,8 @@ fn a_bearing_that_turns_slowly_answers_like_one_with_inertia() {
     // inertia alone.
     let mut scene = slow();
     (scene.gravity, scene.tolerance) = ([0.0; 2], 1e-7);
-    let run = |scene: Scene| {
-        let mut bearing = Named::started(scene);
-        let mut found = Vec::new();
-        for _ in 0..400 {
-            bearing.run(1e-3, 1);
-            found.push([bearing.get("shaft.x"), bearing.get("shaft.y"), bearing.get("element[1].force.inner")]);
-        }
-        found
-    };
+    let names = ["shaft.x", "shaft.y", "element[1].force.inner"];
+    let run = |scene: Scene| Named::started(scene).course(names, 1e-3, 400);
     let mut full = scene.clone();
     full.bearing.element_inertia = ElementInertia::Full;
     let (none, full) = (run(scene), run(full));
@@ -204,18 +185,10 @@ fn elements_without_inertia_are_no_states_and_leave_nothing_to_the_implicit_meth
 #[test]
 fn mean_forces_on_hosted_rings_do_not_depend_on_the_communication_step() {
     let run = |step: f64, count: usize| {
-        let mut scene = without_inertia(shipped("er16k-tb1"));
-        (scene.shaft, scene.housing) = (Ring::hosted(), Ring::hosted());
-        scene.sensors.clear();
-        let mut bearing = Named::new(scene);
-        bearing.set("shaft.y", -14e-6);
-        bearing.0.initialize(0.0).unwrap();
-        let mut sum = 0.0;
-        for _ in 0..count {
-            bearing.run(step, 1);
-            sum += bearing.get("shaft.mean_force.y") / count as f64;
-        }
-        sum
+        let scene = without_inertia(shipped("er16k-tb1"));
+        let scene = Scene { shaft: Ring::hosted(), housing: Ring::hosted(), sensors: Vec::new(), ..scene };
+        let mut bearing = Named::started_with(scene, &[("shaft.y", -14e-6)]);
+        bearing.course(["shaft.mean_force.y"], step, count).concat().iter().sum::<f64>() / count as f64
     };
     let [short, long] = [run(1e-5, 3000), run(3e-2, 1)];
     // Steps of 0.02 rad of the cage; where elements meet the spall they end on its knots.

@@ -8,33 +8,26 @@ use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::geometry::kinematics::cage_ratio;
 use brinell::scene::{Damping, Ring, Scene};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Jump of the load by a factor, and rest in the end: the equilibrium that is solved statically.
 ///
 /// With contact damping within 1e-4: the tolerance is 1e-5 of the largest approach, and the force grows with its power
 /// 1.5. Without it the elements go on vibrating with what the jump gave them, some 1e-3 of the force.
-pub fn settles(kind: Kind, what: &'static str, scene: Scene, limit: f64) -> Row {
+pub fn settles(kind: Kind, what: &'static str, mut scene: Scene, limit: f64) -> Row {
     let load = scene.shaft.load[1];
-    let mut scene = scene;
     (scene.shaft_speed, scene.sensors) = (0.0, Vec::new());
     let mut at_rest = Named::started(scene.clone());
-    let mut start = scene;
-    start.shaft.load[1] = 0.2 * load;
-    let mut bearing = Named::started(start);
+    scene.shaft.load[1] = 0.2 * load;
+    let mut bearing = Named::started(scene);
     bearing.set("shaft.load.y", load);
     // Rings' vibrations decay with 2m/c = 5 and 6 ms: e^-25 after 150 ms.
     bearing.run(1e-3, 150);
     let force = |b: &mut Named| b.inner_forces(kind.count).into_iter().fold(0.0, f64::max);
     let (expected, got) = (force(&mut at_rest), force(&mut bearing));
     assert!((got - expected).abs() < limit * expected, "{what}: {got} N, in static equilibrium {expected} N");
-    Row::new(
-        what,
-        format!("static equilibrium: largest element force {expected:.4e} N"),
-        format!("{got:.4e} N"),
-        &bearing,
-    )
-    .within((got - expected).abs() / expected, limit)
+    let wanted = format!("static equilibrium: largest element force {expected:.4e} N");
+    Row::new(what, wanted, format!("{got:.4e} N"), &bearing).within((got - expected).abs() / expected, limit)
 }
 
 pub fn load_0(kind: Kind, what: &'static str, damping: Damping) -> Row {
@@ -73,6 +66,10 @@ fn turns_100_000_times_a_minute(what: &'static str, mut scene: Scene, limit: f64
     let dimensions = scene.bearing.clone();
     let mut bearing = Named::started(scene);
     let [got, expected] = bearing.pressed_outwards(&dimensions, omega);
+    let r = dimensions.element_radius();
+    let volume = dimensions.roller().map_or(4.0 / 3.0 * PI * r * r * r, |roller| PI * r * r * roller.length);
+    assert!((dimensions.mass_of_element() / (volume * dimensions.density) - 1.0).abs() < 1e-14);
+    assert_eq!(bearing.get("element[3].force.inner"), 0.0);
     // Gravity turns with 650 Hz far below the contact's resonance: quasi-static within (650/20000)² of 0.02 N.
     assert!((got - expected).abs() < limit * expected, "{got} {expected}");
     Row::new(what, format!("m (ρ ω² + g·e_r) = {expected:.6e} N"), format!("{got:.6e} N"), &bearing)
@@ -108,13 +105,8 @@ pub fn reversal(kind: Kind) -> Row {
     assert!(travel.abs() < 1e-12 && (bearing.get("shaft.speed") + 60.0).abs() < 1e-10, "{travel}");
     let path = bearing.get("element[3].path");
     assert!(path.abs() < 2e-4, "{path}");
-    Row::new(
-        "reversal by a ramp of speed, with a spall",
-        "the cage back where it was, 0 rad",
-        format!("{travel:.0e} rad"),
-        &bearing,
-    )
-    .within(travel.abs(), 1e-12)
+    let (what, expected) = ("reversal by a ramp of speed, with a spall", "the cage back where it was, 0 rad");
+    Row::new(what, expected, format!("{travel:.0e} rad"), &bearing).within(travel.abs(), 1e-12)
 }
 
 pub fn preload(kind: Kind) -> Row {
@@ -133,13 +125,9 @@ pub fn preload(kind: Kind) -> Row {
     // The tolerance of 1e-5 of the approach, with the power 1.5; a crown's table is right to 2e-5.
     let limit = kind.pick(1.5e-5, 4e-5);
     assert!((got - expected).abs() < limit * expected, "{got} {expected}");
-    Row::new(
-        "clearance −5 µm, concentric",
-        format!("{form} = {expected:.6} N in each contact"),
-        format!("{got:.6} N"),
-        &bearing,
-    )
-    .within((got - expected).abs() / expected, limit)
+    let wanted = format!("{form} = {expected:.6} N in each contact");
+    Row::new("clearance −5 µm, concentric", wanted, format!("{got:.6} N"), &bearing)
+        .within((got - expected).abs() / expected, limit)
 }
 
 /// Force of a roller with the standard's crown on one raceway by the sum over its laminae (N).
@@ -180,13 +168,9 @@ pub fn free_fall(kind: Kind) -> Row {
     assert_eq!(bearing.get("element[1].force.inner") + bearing.get("element[1].force.outer"), 0.0);
     // A parabola is integrated exactly; rounding of 1 mm over some hundred steps.
     assert!((got - expected).abs() < 1e-15, "{got} {expected}");
-    Row::new(
-        "both contacts of an element lost",
-        format!("free fall: path {expected:.9e} m"),
-        format!("{got:.9e} m"),
-        &bearing,
-    )
-    .within((got - expected).abs() / expected.abs(), 1e-12)
+    let wanted = format!("free fall: path {expected:.9e} m");
+    Row::new("both contacts of an element lost", wanted, format!("{got:.9e} m"), &bearing)
+        .within((got - expected).abs() / expected.abs(), 1e-12)
 }
 
 pub fn energy_without_damping(kind: Kind) -> Row {

@@ -58,9 +58,7 @@ pub fn one_minute(kind: Kind) -> Row {
     scene.bearing.element_count = 3;
     scene.shaft_speed = 25.0 * TAU;
     let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
-    let mut bearing = Named::new(scene);
-    bearing.set("shaft.y", -2e-5);
-    bearing.0.initialize(0.0).unwrap();
+    let mut bearing = Named::started_with(scene, &[("shaft.y", -2e-5)]);
     let start = bearing.get("cage.angle");
     let force = |b: &mut Named| (1..=3).map(|j| b.get(&format!("element[{j}].force.outer"))).fold(0.0, f64::max);
     // The cage turns by one spacing in this time, after which all repeats.

@@ -66,12 +66,12 @@ extremes! {
     a_newton_agrees = case(kind, "load 1 N, χ = 0.5 s/m");
     a_newton_with_strong_damping_agrees = case(kind, "load 1 N, χ = 5 s/m");
     a_newton_with_proportional_damping_agrees = case(kind, "load 1 N, proportional, τ = 10 µs");
-    fifty_kilonewton_without_contact_damping_settle = settles(kind, "load jumps to 50 kN, χ = \
-                                                                     0", kind.fifty_kilonewton(CHI(0.0)), 5e-3);
-    fifty_kilonewton_with_usual_damping_settle = settles(kind, "load jumps to 50 kN, χ = 0.5 \
-                                                                s/m", kind.fifty_kilonewton(CHI(0.5)), 1e-4);
-    fifty_kilonewton_with_strong_damping_settle = settles(kind, "load jumps to 50 kN, χ = 5 \
-                                                                 s/m", kind.fifty_kilonewton(CHI(5.0)), 1e-4);
+    fifty_kilonewton_without_contact_damping_settle =
+        settles(kind, "load jumps to 50 kN, χ = 0", kind.fifty_kilonewton(CHI(0.0)), 5e-3);
+    fifty_kilonewton_with_usual_damping_settle =
+        settles(kind, "load jumps to 50 kN, χ = 0.5 s/m", kind.fifty_kilonewton(CHI(0.5)), 1e-4);
+    fifty_kilonewton_with_strong_damping_settle =
+        settles(kind, "load jumps to 50 kN, χ = 5 s/m", kind.fifty_kilonewton(CHI(5.0)), 1e-4);
     fifty_kilonewton_with_proportional_damping_settle =
         settles(kind, "load jumps to 50 kN, proportional, τ = 10 µs", kind.fifty_kilonewton(TAU(1e-5)), 1e-4);
     fifty_kilonewton_on_elements_without_inertia_settle = settles(

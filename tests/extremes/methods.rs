@@ -10,14 +10,7 @@ use brinell::simulation::Method;
 /// tighter.
 pub fn agree(what: &'static str, scene: Scene, step: f64, count: usize, limit: f64) -> Row {
     const NAMES: [&str; 4] = ["shaft.force.y", "housing.force.y", "element[1].force.outer", "element[2].force.inner"];
-    let run = |bearing: &mut Named| -> Vec<f64> {
-        let mut found = Vec::new();
-        for _ in 0..count {
-            bearing.run(step, 1);
-            found.extend(NAMES.map(|name| bearing.get(name)));
-        }
-        found
-    };
+    let run = |bearing: &mut Named| bearing.course(NAMES, step, count).concat();
     let mut tight = scene.clone();
     tight.tolerance *= 1e-2;
     let mut bearing = Named::started(scene);
@@ -35,22 +28,11 @@ pub fn agree(what: &'static str, scene: Scene, step: f64, count: usize, limit: f
 
 #[test]
 fn a_saved_state_continues_with_the_same_bits_while_the_methods_take_turns() {
-    let mut bearing = Named::started(lighter(BALLS.spalled(), 0.01));
-    let mut other = Named::started(lighter(BALLS.spalled(), 0.01));
+    let [mut bearing, mut other] = [(); 2].map(|()| Named::started(lighter(BALLS.spalled(), 0.01)));
     let names = ["shaft.y", "housing.ay", "element[1].path", "element[1].force.outer"];
     let (mut turns, mut last) = (0, bearing.0.step_counts());
     for _ in 0..100 {
-        let state = bearing.0.save();
-        bearing.run(7.7e-5, 2);
-        let first = (names.map(|name| bearing.get(name).to_bits()), bearing.0.step_counts());
-        // In this simulation again, and by way of bytes in another that was somewhere else.
-        bearing.0.restore(&state).unwrap();
-        bearing.run(7.7e-5, 2);
-        assert_eq!(first, (names.map(|name| bearing.get(name).to_bits()), bearing.0.step_counts()));
-        let state = other.0.state_from_bytes(&state.to_bytes()).unwrap();
-        other.0.restore(&state).unwrap();
-        other.run(7.7e-5, 2);
-        assert_eq!(first, (names.map(|name| other.get(name).to_bits()), other.0.step_counts()));
+        bearing.goes_on_alike(&mut other, names, 7.7e-5, 2);
         let now = bearing.0.step_counts();
         let (all, implicit) = (now.all - last.all, now.implicit - last.implicit);
         turns += usize::from(implicit > 0 && implicit < all);
@@ -66,7 +48,7 @@ fn mean_forces_of_both_methods_agree() {
         bearing.0.set_method(method);
         bearing.set("shaft.y", -1e-5);
         bearing.run(1e-3, 1);
-        let means = ["shaft.mean_force.x", "shaft.mean_force.y", "housing.mean_force.y"].map(|name| bearing.get(name));
+        let means = bearing.all(["shaft.mean_force.x", "shaft.mean_force.y", "housing.mean_force.y"]);
         (means, bearing.get("shaft.force.y"))
     };
     let ((explicit, end), (implicit, _)) = (mean(Method::DormandPrince), mean(Method::Rodas));

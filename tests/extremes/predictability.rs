@@ -36,23 +36,16 @@ impl Run {
         scene.tolerance = tolerance;
         // Instants at which contacts begin are looked for, so nothing is filtered.
         scene.recorder = Some(Recorder { rate: RATE, filter: RecorderFilter::None });
-        let mut bearing = Named::new(scene);
-        bearing.0.record_into("memory");
-        bearing.0.initialize(0.0).unwrap();
+        let mut bearing = Named::recorded(scene);
         move_element(&mut bearing, 5, moved);
         bearing.run(1e-4, (STOP / 1e-4).round() as usize);
         let steps = ["solver.steps", "solver.rejected_steps"].map(|name| bearing.count(name));
-        let recorder = bearing.0.recorder().unwrap();
-        let table = bearing.0.table();
-        let names: Vec<&str> = recorder.references().map(|r| table[r as usize].name.as_str()).collect();
-        let samples = recorder.samples();
-        let column = |name: &str| -> Vec<f64> {
-            let index = 1 + names.iter().position(|&n| n == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
-            samples.values.chunks(samples.width).map(|row| row[index]).collect()
+        let of_elements = |what: &str| {
+            let names: Vec<String> = (1..=9).map(|j| format!("element[{j}].{what}")).collect();
+            bearing.columns(&names.iter().map(String::as_str).collect::<Vec<_>>())
         };
-        let of_elements = |what: &str| (1..=9).map(|j| column(&format!("element[{j}].{what}"))).collect();
         Self {
-            acceleration: column("housing.ay"),
+            acceleration: bearing.columns(&["housing.ay"]).remove(0),
             paths: of_elements("path"),
             outer: of_elements("force.outer"),
             inner: of_elements("force.inner"),
@@ -257,6 +250,5 @@ fn oil_lets_a_small_difference_die_away() {
 #[test]
 fn with_oil_nothing_bounces_and_steps_are_fewer() {
     let [dry, oiled] = ["er16k-tb1", "er16k-tb1-oil"].map(|scene| Run::of(scene, TOLERANCES[2], 0.0).steps);
-    println!("steps taken and refused, dry {dry:?}, with oil {oiled:?}");
     assert!(oiled[0] < dry[0] && oiled[1] < dry[1], "{dry:?} {oiled:?}");
 }

@@ -2,9 +2,10 @@
 
 use crate::row::Row;
 use crate::scenes::{BALLS, Kind, loaded, without_inertia};
+use crate::support::defects::{short_spall, spall};
 use crate::support::{Named, shipped};
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::scene::{ContactLaw, Damping, Defect, DefectShape, Motion, Scene};
+use brinell::scene::{ContactLaw, Damping, Defect, Motion, Scene};
 use brinell::simulation::{Method, Simulation, SimulationError};
 use std::f64::consts::FRAC_PI_2;
 
@@ -70,19 +71,24 @@ pub fn not_finite(kind: Kind) -> Row {
 
 pub fn too_deep(kind: Kind) -> Row {
     let bearing = Named::new(kind.healthy());
-    let shape = DefectShape::Spall { length: 3e-3, depth: 5e-3, edge_slope: FRAC_PI_2 };
-    let scene = Scene { defects: vec![Defect::outer(-FRAC_PI_2, shape)], ..kind.spalled() };
+    let scene = Scene { defects: vec![Defect::outer(-FRAC_PI_2, spall(3e-3, 5e-3))], ..kind.spalled() };
     let found = Simulation::new(scene, None).map(|_| ());
     refused("spall 5 mm deep, deeper than an element's radius", "depth", found, &bearing)
+}
+
+/// A bearing whose element 1 stands over a short spall, under law `map` up to 1 kN.
+fn mapped(kind: Kind) -> Scene {
+    let mut scene = kind.spalled();
+    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, short_spall())];
+    scene.cage.initial_angle = -FRAC_PI_2;
+    scene
 }
 
 /// A contact near the defect that has no answer gives an approach that is NaN; the step must fail, and not take
 /// it for no contact.
 pub fn contact_without_answer(kind: Kind) -> Row {
-    let mut scene = kind.spalled();
-    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
-    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
+    let mut scene = mapped(kind);
     // Element 1 enters within a millisecond, under a load that the map was not made for.
     scene.cage.initial_angle = -FRAC_PI_2 - 1e-3 / scene.bearing.outer_raceway_radius();
     let mut bearing = Named::started(loaded(scene, 500.0, Damping::HuntCrossley(0.5)));
@@ -97,11 +103,7 @@ pub fn contact_without_answer(kind: Kind) -> Row {
 /// The same, of elements that are there before the first step.
 #[test]
 fn an_equilibrium_beyond_the_contact_map_is_refused() {
-    let mut scene = BALLS.spalled();
-    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
-    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
-    scene.cage.initial_angle = -FRAC_PI_2;
+    let scene = mapped(BALLS);
     let loaded = loaded(scene, 500.0, Damping::HuntCrossley(0.5));
     let mut hosted = loaded.clone();
     (hosted.shaft.motion, hosted.shaft.load) = (Motion::Host, [0.0; 2]);
@@ -118,11 +120,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
 #[test]
 fn a_ring_driven_beyond_all_numbers_is_named_with_its_last_position() {
     // Near a defect under law `map`, where the contacts are NaN then.
-    let mut scene = BALLS.spalled();
-    (scene.contact.law, scene.contact.largest_force) = (ContactLaw::Map, Some(1000.0));
-    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
-    (scene.cage.initial_angle, scene.shaft_speed) = (-FRAC_PI_2, 0.0);
+    let scene = Scene { shaft_speed: 0.0, ..mapped(BALLS) };
     let error = |motion: Motion, name: &str, order: i32, value: f64| {
         let mut scene = scene.clone();
         scene.shaft.motion = motion;

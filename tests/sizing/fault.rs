@@ -1,9 +1,8 @@
 //! Which part of the bearing is damaged, how spalls of the inner raceway are sized, and what an answer is worth: from
 //! signals that are made here, by the kinematics of an element of finite size, or by the library's own simulation.
 
-use crate::machine::{RATE, Spall, scene, signal, signal_of};
-use brinell::scene::ContactLaw;
-use brinell::simulation::Simulation;
+use crate::machine::{RATE, Spall, recorded, scene, shipped, signal, signal_of};
+use brinell::scene::Scene;
 use brinell_analysis::recording::Recording;
 use brinell_analysis::sizing::{Fault, Grade, Report, Standing, Verdict, size};
 use brinell_analysis::spectrum::{Band, Spectrum};
@@ -125,27 +124,14 @@ fn the_interval_holds_what_is_picked_in_resamples_too() {
     let spall = Spall { length: 5.3, inner: false, first_impact: true, early: 0.8 };
     let report = sized(signal_of(spall, 10.0, 0.03), 10.0);
     let found = &report.recordings[0];
-    let held = |truth: f64| {
-        found.length_deg.zip(found.uncertainty_deg).is_none_or(|(length, interval)| (length - truth).abs() <= interval)
-    };
-    assert!(held(5.3) && held(4.5), "{:?} ± {:?}", found.length_deg, found.uncertainty_deg);
+    let (length, interval) = found.length_deg.zip(found.uncertainty_deg).unwrap();
+    assert!([5.3, 4.5].into_iter().all(|truth| (length - truth).abs() <= interval), "{length} ± {interval}");
 }
 
 /// What the sensor of the shipped inner scene records at a speed (Hz), by the cheap law, with noise 30 dB below it.
 fn simulated(speed: f64, seconds: f64) -> Vec<f64> {
-    let mut scene = brinell_scene_file::from_toml(include_str!("../../scenes/6205-inner-5deg.toml")).unwrap();
-    scene.shaft_speed = TAU * speed;
-    scene.contact.law = ContactLaw::Hertz;
-    let mut simulation = Simulation::new(scene, None).unwrap();
-    let sensor = simulation.reference("sensor.acceleration").unwrap();
-    simulation.initialize(0.0).unwrap();
-    let (mut value, mut random) = ([0.0], Random::new(3));
-    let mut sample = |_| {
-        simulation.step(1.0 / RATE).unwrap();
-        simulation.reals(&[sensor], &mut value).unwrap();
-        value[0]
-    };
-    let clean: Vec<f64> = (0..(seconds * RATE) as usize).map(&mut sample).collect();
+    let clean = recorded(Scene { shaft_speed: TAU * speed, ..shipped("6205-inner-5deg") }, RATE, seconds);
+    let mut random = Random::new(3);
     let noise = 0.03 * rms(&clean);
     clean.iter().map(|x| x + noise * random.normal()).collect()
 }
@@ -173,11 +159,8 @@ fn a_wrong_speed_gives_no_length_and_the_refusal_says_which_one_would_suit() {
             for share in [0.5, 0.667, 1.5, 2.0] {
                 let report = sized(signal.to_vec(), 10.0 * share);
                 let named = report.fault;
-                assert!(
-                    report.length_deg.is_none() && [Fault::Undecided, Fault::None].contains(&named),
-                    "{fault:?} at {share}: {named:?} {:?}",
-                    report.length_deg
-                );
+                let is_silent = report.length_deg.is_none() && [Fault::Undecided, Fault::None].contains(&named);
+                assert!(is_silent, "{fault:?} at {share}: {named:?} {:?}", report.length_deg);
             }
         }
     }

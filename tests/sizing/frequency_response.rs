@@ -1,7 +1,7 @@
 //! Modes out of responses that are known, noisy, or none.
 
 use brinell::scene::SensorMode;
-use brinell_analysis::spectra::{FrequencyResponse, ResponseError, response};
+use brinell_analysis::spectra::{Fit, FrequencyResponse, ResponseError, response};
 use brinell_eigen::c64;
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -17,23 +17,40 @@ fn modes() -> Vec<SensorMode> {
         .to_vec()
 }
 
-/// Lines of 10 Hz up to 12 kHz, each changed by `noise`, as a table.
-fn table(modes: &[SensorMode], polar: bool, noise: impl Fn(usize) -> c64) -> String {
-    let mut text =
-        if polar { "frequency_hz,magnitude,phase_deg\n" } else { "frequency_hz,real,imaginary\n" }.to_owned();
-    for k in 1..=1200 {
-        let frequency = f64::from(k) * 10.0;
-        let value = response(modes, frequency) + noise(k as usize);
-        let [a, b] = if polar { [value.norm(), value.arg().to_degrees()] } else { [value.re, value.im] };
-        writeln!(text, "{frequency},{a:?},{b:?}").unwrap();
+/// A response at frequencies (Hz) as a table.
+fn lines(frequencies: impl Iterator<Item = f64>, response: impl Fn(f64) -> c64) -> String {
+    let mut text = "frequency_hz,real,imaginary\n".to_owned();
+    for frequency in frequencies {
+        let value = response(frequency);
+        writeln!(text, "{frequency},{:?},{:?}", value.re, value.im).unwrap();
     }
     text
 }
 
+/// Lines `step` (Hz) apart, so many.
+fn every(step: f64, count: u32) -> impl Iterator<Item = f64> {
+    (1..=count).map(move |k| f64::from(k) * step)
+}
+
+/// Modes out of a table.
+fn fit(text: &str) -> Result<Fit, ResponseError> {
+    FrequencyResponse::from_csv(text).and_then(|of| of.fit())
+}
+
+/// All of the modes, every 10 Hz up to 12 kHz.
+fn good() -> String {
+    lines(every(10.0, 1200), |frequency| response(&modes(), frequency))
+}
+
 #[test]
 fn modes_come_back_from_their_own_response() {
-    for polar in [false, true] {
-        let fit = FrequencyResponse::from_csv(&table(&modes(), polar, |_| c64::new(0.0, 0.0))).unwrap().fit().unwrap();
+    let mut polar = "frequency_hz,magnitude,phase_deg\n".to_owned();
+    for frequency in every(10.0, 1200) {
+        let value = response(&modes(), frequency);
+        writeln!(polar, "{frequency},{:?},{:?}", value.norm(), value.arg().to_degrees()).unwrap();
+    }
+    for text in [good(), polar] {
+        let fit = fit(&text).unwrap();
         assert!(fit.modes.len() == 4 && fit.misfit < 1e-9, "{fit:?}");
         for (found, mode) in fit.modes.iter().zip(modes()) {
             let numbers = |of: &SensorMode| [of.frequency / 1e4, of.damping_ratio, of.gain, of.quadrature_gain];
@@ -47,11 +64,13 @@ fn modes_come_back_from_their_own_response() {
 #[test]
 fn noise_costs_as_much_as_it_is_and_no_mode_too_many() {
     // A hash of the line's number: as good as noise, and the same every time. rms 0.05 of a response of rms 1.9.
-    let noise = |k: usize| {
+    let noise = |frequency: f64| {
+        let k = (frequency / 10.0) as u64;
         let uniform = |n: u64| (n.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 40) as f64 / f64::from(1 << 24) - 0.5;
-        c64::new(uniform(2 * k as u64 + 1), uniform(2 * k as u64 + 2)) * 0.12
+        c64::new(uniform(2 * k + 1), uniform(2 * k + 2)) * 0.12
     };
-    let fit = FrequencyResponse::from_csv(&table(&modes(), false, noise)).unwrap().fit().unwrap();
+    let noisy = lines(every(10.0, 1200), |frequency| response(&modes(), frequency) + noise(frequency));
+    let fit = fit(&noisy).unwrap();
     assert!(fit.modes.len() == 4 && (0.01..0.06).contains(&fit.misfit), "{fit:?}");
     for (found, mode) in fit.modes.iter().zip(modes()) {
         assert!((found.frequency / mode.frequency - 1.0).abs() < 5e-3, "{found:?} {mode:?}");
@@ -83,8 +102,7 @@ fn impulse_table(modes: &[SensorMode], step: f64, first: f64) -> String {
 #[test]
 fn an_impulse_response_gives_the_same_modes_whatever_share_of_the_jump_its_first_sample_has() {
     for (count, step) in [(1, 5e-6), (4, 1e-5)] {
-        let fit = |first| FrequencyResponse::from_csv(&impulse_table(&modes()[..count], step, first)).unwrap().fit();
-        let [half, whole] = [0.5, 1.0].map(|first| fit(first).unwrap());
+        let [half, whole] = [0.5, 1.0].map(|first| fit(&impulse_table(&modes()[..count], step, first)).unwrap());
         // What the sum has beside the constant is s Δt²/12 of the jump h(0+) = Σ(2ζωΓ − ωΚ), 3000/s here: at a quarter
         // of the rate 1e-3 at 5 µs and 2e-3 at 10 µs, which modes cannot take.
         assert!(half.modes.len() == count && whole.modes.len() == count, "{half:?} {whole:?}");
@@ -101,9 +119,8 @@ fn an_impulse_response_gives_the_same_modes_whatever_share_of_the_jump_its_first
 
 #[test]
 fn a_table_may_begin_at_0_hz_where_nothing_is_measured() {
-    let good = table(&modes(), false, |_| c64::new(0.0, 0.0));
+    let good = good();
     let with = |line: &str| good.replacen('\n', &format!("\n{line}\n"), 1);
-    let fit = |text: &str| FrequencyResponse::from_csv(text).and_then(|of| of.fit());
     for line in ["0,1,0", "0.0,0.0,0.0", "0,-37,2"] {
         assert_eq!(fit(&with(line)), fit(&good), "{line}");
     }
@@ -114,12 +131,7 @@ fn a_table_may_begin_at_0_hz_where_nothing_is_measured() {
 #[test]
 fn a_turned_sign_is_refused_by_its_name_and_so_is_what_modes_explain_nothing_of() {
     let turned = |modes: &[SensorMode], turn: fn(c64) -> c64| {
-        let mut text = "frequency_hz,real,imaginary\n".to_owned();
-        for k in 1..=600 {
-            let value = turn(response(modes, f64::from(k) * 50.0));
-            writeln!(text, "{},{:?},{:?}", k * 50, value.re, value.im).unwrap();
-        }
-        FrequencyResponse::from_csv(&text).and_then(|of| of.fit()).unwrap_err().to_string()
+        fit(&lines(every(50.0, 600), |frequency| turn(response(modes, frequency)))).unwrap_err().to_string()
     };
     // A mode so small that 1 alone misses 5 % of the response.
     let small = SensorMode { frequency: 2_300.0, damping_ratio: 0.03, gain: 0.02, quadrature_gain: 0.0 };
@@ -137,32 +149,23 @@ fn a_turned_sign_is_refused_by_its_name_and_so_is_what_modes_explain_nothing_of(
 #[test]
 fn no_mode_is_made_where_nothing_is_measured_or_a_scene_may_have_none() {
     for (low, high) in [(100, 2000), (100, 800), (1200, 5000), (3000, 8000)] {
-        let mut text = "frequency_hz,real,imaginary\n".to_owned();
-        for k in (low..high).step_by(10) {
-            let value = response(&modes(), f64::from(k));
-            writeln!(text, "{k},{:?},{:?}", value.re, value.im).unwrap();
-        }
+        let text = lines((low..high).step_by(10).map(f64::from), |frequency| response(&modes(), frequency));
         let within = |mode: &SensorMode| (f64::from(low)..f64::from(high)).contains(&mode.frequency);
-        match FrequencyResponse::from_csv(&text).unwrap().fit() {
+        match fit(&text) {
             Ok(fit) => assert!(fit.modes.iter().all(within), "{low} to {high} Hz: {fit:?}"),
             Err(error) => assert!(matches!(error, ResponseError::Misfit { .. }), "{low} to {high} Hz: {error}"),
         }
     }
     // Half a million samples a second and more: a mode of 3 MHz is within the lines, but in no scene.
     let fast = SensorMode { frequency: 3e6, ..modes()[0] };
-    let mut text = "frequency_hz,real,imaginary\n".to_owned();
-    for k in 1..=400 {
-        let value = response(&[fast], f64::from(k) * 1e4);
-        writeln!(text, "{},{:?},{:?}", k * 10_000, value.re, value.im).unwrap();
-    }
-    let fit = FrequencyResponse::from_csv(&text).unwrap().fit();
+    let fit = fit(&lines(every(1e4, 400), |frequency| response(&[fast], frequency)));
     assert!(fit.is_err(), "{fit:?}");
 }
 
 #[test]
 fn what_is_no_response_is_refused_with_what_it_is() {
-    let refused = |text: &str| FrequencyResponse::from_csv(text).and_then(|of| of.fit()).unwrap_err().to_string();
-    let good = table(&modes(), false, |_| c64::new(0.0, 0.0));
+    let refused = |text: &str| fit(text).unwrap_err().to_string();
+    let good = good();
     assert!(refused(&good.replace("imaginary", "phase")).contains("phase"));
     assert!(refused(&good.replace("\n30.0,", "\n10.0,").replace("\n30,", "\n10,")).contains("frequency_hz 10"));
     assert!(refused(&good.lines().take(5).collect::<Vec<_>>().join("\n")).contains("4 lines"));

@@ -1,6 +1,7 @@
 //! Derivatives against differences.
 
 use super::*;
+use crate::support::differences::{by_input, by_time};
 use brinell::dynamics::contacts::{Forces, Shortcuts};
 use brinell::dynamics::derivatives::Jacobian;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape, Sensor};
@@ -61,14 +62,8 @@ fn the_jacobian_is_the_quotient_of_differences() {
             let scale = (0..len).map(|row| matrix[row][column].abs()).fold(0.0, f64::max);
             for row in 0..len {
                 let miss = (found[row] - matrix[row][column]).abs();
-                assert!(
-                    miss <= 1e-6 * scale.max(1.0),
-                    "{} by {}: {:e} {:e}",
-                    model.layout.name(row),
-                    model.layout.name(column),
-                    matrix[row][column],
-                    found[row]
-                );
+                let of = [row, column].map(|i| model.layout.name(i));
+                assert!(miss <= 1e-6 * scale.max(1.0), "{of:?}: {:e} {:e}", matrix[row][column], found[row]);
             }
         }
         for shift in [1e2, 1e5, 1e9] {
@@ -107,8 +102,8 @@ const OUTPUTS: [&str; 9] = [
 
 #[test]
 fn what_a_host_moves_changes_outputs_by_the_directional_derivative() {
-    let scene = Scene::builder(angular(25.0)).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 60.0);
-    let scene = scene.shaft(Ring::hosted()).housing(Ring::hosted()).law(ContactLaw::Hertz);
+    let scene = hosted_shaft(angular(25.0), DegreesOfFreedom::Five).housing(Ring::hosted());
+    let scene = scene.shaft_speed(TAU * 60.0).law(ContactLaw::Hertz);
     let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
     let inputs = [
         ("shaft.x", 2e-6, 1e-9),
@@ -122,35 +117,16 @@ fn what_a_host_moves_changes_outputs_by_the_directional_derivative() {
     for (name, value, _) in inputs {
         simulation.set(name, value).unwrap();
     }
-    let outputs: Vec<u32> = OUTPUTS.iter().map(|name| simulation.reference(name).unwrap()).collect();
     for started in [false, true] {
         if started {
             simulation.initialize(0.0).unwrap();
             simulation.step(1e-4).unwrap();
         }
-        for (name, value, h) in inputs {
-            let input = simulation.reference(name).unwrap();
-            let mut exact = vec![0.0; outputs.len()];
-            simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
-            let value = if started { simulation.get(name).unwrap() } else { value };
-            let mut at = |by: f64| {
-                simulation.set(name, value + by).unwrap();
-                let mut found = vec![0.0; outputs.len()];
-                simulation.reals(&outputs, &mut found).unwrap();
-                found
-            };
-            let (above, below) = (at(h), at(-h));
-            at(0.0);
-            for (k, output) in OUTPUTS.iter().enumerate() {
-                let quotient = (above[k] - below[k]) / (2.0 * h);
-                let size = (above[k].abs() + below[k].abs()) / 2.0;
+        for (input, _, h) in inputs {
+            for (slope, output) in by_input(&mut simulation, &OUTPUTS, input, h).iter().zip(OUTPUTS) {
                 // Second order of the step, and roundings of the values over it.
-                let limit = 1e-4 * quotient.abs().max(exact[k].abs()) + 1e-10 * size / h;
-                assert!(
-                    (quotient - exact[k]).abs() <= limit,
-                    "{started} {output} by {name}: {:e} {quotient:e}",
-                    exact[k]
-                );
+                let limit = 1e-4 * slope.largest() + 1e-10 * slope.size / h;
+                assert!(slope.miss() <= limit, "{started} {output} by {input}: {slope:?}");
             }
         }
     }
@@ -171,27 +147,13 @@ fn loads_move_the_balance_by_the_directional_derivative() {
 fn loads_move_the_balance(scene: Scene) {
     let mut simulation = Simulation::new(scene, None).unwrap();
     let names = ["shaft.y", "shaft.z", "shaft.tilt.x", "element[2].path", "element[2].axial", "element[2].force.inner"];
-    let outputs = names.map(|name| simulation.reference(name).unwrap());
-    for (name, value, h) in
+    for (input, value, h) in
         [("shaft.load.z", 350.0, 1e-2), ("shaft.load_moment.y", 0.1, 1e-4), ("shaft.load.x", 0.0, 1e-2)]
     {
-        simulation.set(name, value).unwrap();
-        let input = simulation.reference(name).unwrap();
-        let mut exact = [0.0; 6];
-        simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
-        let mut at = |by: f64| {
-            simulation.set(name, value + by).unwrap();
-            let mut found = [0.0; 6];
-            simulation.reals(&outputs, &mut found).unwrap();
-            found
-        };
-        let (above, below) = (at(h), at(-h));
-        at(0.0);
-        for k in 0..6 {
-            let quotient = (above[k] - below[k]) / (2.0 * h);
-            let size = above[k].abs().max(below[k].abs());
-            let limit = 1e-5 * quotient.abs() + 1e-11 * size / h;
-            assert!((quotient - exact[k]).abs() <= limit, "{} by {name}: {:e} {quotient:e}", names[k], exact[k]);
+        simulation.set(input, value).unwrap();
+        for (slope, name) in by_input(&mut simulation, &names, input, h).iter().zip(names) {
+            let limit = 1e-5 * slope.found.abs() + 1e-11 * slope.size / h;
+            assert!(slope.miss() <= limit, "{name} by {input}: {slope:?}");
         }
     }
 }
@@ -200,25 +162,9 @@ fn loads_move_the_balance(scene: Scene) {
 fn outputs_change_by_time_as_their_derivatives_say() {
     let mut simulation = moving(angular(25.0), 1);
     let names = ["shaft.force.z", "shaft.moment.y", "shaft.az", "element[2].axial", "element[2].contact_angle.outer"];
-    let outputs = names.map(|name| simulation.reference(name).unwrap());
-    let mut exact = [0.0; 5];
-    simulation.output_derivatives(&outputs, &[1; 5], &mut exact).unwrap();
-    let state = simulation.save();
-    let mut after = |h: f64| {
-        simulation.restore(&state).unwrap();
-        simulation.step(h).unwrap();
-        let mut found = [0.0; 5];
-        simulation.reals(&outputs, &mut found).unwrap();
-        found
-    };
     let h = 2e-8;
-    let (one, two) = (after(h), after(2.0 * h));
-    simulation.restore(&state).unwrap();
-    let mut here = [0.0; 5];
-    simulation.reals(&outputs, &mut here).unwrap();
-    for k in 0..5 {
-        let quotient = (4.0 * one[k] - two[k] - 3.0 * here[k]) / (2.0 * h);
-        let limit = 2e-3 * quotient.abs().max(exact[k].abs()) + 1e-9 * here[k].abs() / h;
-        assert!((quotient - exact[k]).abs() <= limit, "{}: {:e} {quotient:e}", names[k], exact[k]);
+    for (slope, name) in by_time(&mut simulation, &names, h).iter().zip(names) {
+        let limit = 2e-3 * slope.largest() + 1e-9 * slope.size / h;
+        assert!(slope.miss() <= limit, "{name}: {slope:?}");
     }
 }

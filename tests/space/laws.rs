@@ -1,6 +1,9 @@
 //! What must hold whatever the figures are: energy, mirror, turning by one pitch, the plane, states put back.
 
 use super::*;
+use crate::support::Named;
+use crate::support::differences::by_input;
+use crate::support::energy::energy;
 use brinell::scene::{ContactLaw, Damping, ElementInertia};
 use brinell::simulation::Method;
 use std::f64::consts::{PI, TAU};
@@ -18,48 +21,16 @@ fn energy_is_what_the_cage_has_put_in() {
     let scene = lively(b6205(8e-6)).shaft(shaft).shaft_load([0.0, -300.0]).axial_load(250.0);
     let mut scene = scene.damping(Damping::HuntCrossley(0.0)).build().unwrap();
     scene.contact.across_damping = Some(0.0);
-    let mass = scene.shaft.mass;
-    let mut simulation = started(scene);
-    let energy = |simulation: &mut Simulation, loads: [f64; 3]| {
-        let (x, v) = (
-            values(simulation, ["shaft.x", "shaft.y", "shaft.z"]),
-            values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]),
-        );
-        let speed = simulation.get("cage.speed").unwrap();
-        let angles: Vec<f64> = (1..10).map(|j| simulation.get(&format!("element[{j}].angle")).unwrap()).collect();
-        let (model, _) = simulation.equations();
-        let (m, ball) = (model.element_mass, model.outer_centre_radius);
-        let laws = [&model.inner, &model.outer].map(|raceway| raceway.contact.law.stiffness);
-        let (state, layout) = (simulation.state_vector(), &model.layout);
-        let [_, w_z] = layout.axial().unwrap();
-        let mut sum = 0.5 * mass * v.iter().map(|v| v * v).sum::<f64>();
-        sum -= loads.iter().zip(x).map(|(load, x)| load * x).sum::<f64>();
-        for (j, angle) in angles.iter().enumerate() {
-            let rho = ball + state[j];
-            let (w, axial) = (state[layout.radial_velocity + j], state[w_z + j]);
-            sum += 0.5 * m * (w * w + (rho * speed).powi(2) + axial * axial) + m * 9.81 * rho * angle.sin();
-        }
-        for j in 1..10 {
-            for (raceway, k) in ["inner", "outer"].iter().zip(laws) {
-                let force = simulation.get(&format!("element[{j}].force.{raceway}")).unwrap();
-                // 2/5 K δ^(5/2) of Q = K δ^(3/2).
-                sum += 0.4 * k * (force / k).powf(5.0 / 3.0);
-            }
-        }
-        sum
-    };
-    let loads = [40.0, -250.0, 330.0];
-    for (axis, load) in ["x", "y", "z"].iter().zip(loads) {
+    let mut simulation = started(scene.clone());
+    let [x, y, z] = [40.0, -250.0, 330.0];
+    for (axis, load) in ["x", "y", "z"].iter().zip([x, y, z]) {
         simulation.set(&format!("shaft.load.{axis}"), load).unwrap();
     }
-    let first = energy(&mut simulation, loads);
-    let kinetic = |simulation: &mut Simulation| {
-        let v = values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]);
-        0.5 * mass * v.iter().map(|v| v * v).sum::<f64>()
-    };
+    (scene.shaft.load, scene.shaft.axial.load) = ([x, y], z);
+    let [first, _] = energy(&mut simulation, &scene);
     let mut most = 0.0f64;
-    let work = work_of_cage(&mut simulation, 1000, |simulation| most = most.max(kinetic(simulation)));
-    let last = energy(&mut simulation, loads);
+    let work = work_of_cage(&mut simulation, 1000, |simulation| most = most.max(energy(simulation, &scene)[1]));
+    let [last, _] = energy(&mut simulation, &scene);
     assert!(most > 1e-6, "{most:e}");
     // Tolerance 1e-10 of an approach of 5 µm under 100 N, 5e-14 J, over a thousand steps that add up.
     assert!((last - first - work).abs() < 1e-6 * most, "{:e} of {most:e}", last - first - work);
@@ -78,7 +49,7 @@ fn the_mirror_image_moves_as_the_mirror_image() {
         simulation
     };
     let (mut one, mut other) = (of(1.0), of(-1.0));
-    for (name, way) in [
+    let signals = [
         ("shaft.x", 1.0),
         ("shaft.y", 1.0),
         ("shaft.z", -1.0),
@@ -88,11 +59,9 @@ fn the_mirror_image_moves_as_the_mirror_image() {
         ("element[3].contact_angle.outer", -1.0),
         ("shaft.stiffness.xz", -1.0),
         ("shaft.stiffness.yy", 1.0),
-    ] {
-        let (found, expected) = (one.get(name).unwrap(), way * other.get(name).unwrap());
-        // Signs alone differ, and roundings with them where terms cancel.
-        assert!((found - expected).abs() <= 1e-12 * expected.abs() + 1e-18, "{name}: {found:e} {expected:e}");
-    }
+    ];
+    // Signs alone differ, and roundings with them where terms cancel.
+    are_mirror_images(&mut one, &mut other, &signals, |_, size| 1e-12 * size + 1e-18);
 }
 
 #[test]
@@ -147,9 +116,8 @@ fn without_axial_load_a_bearing_in_space_is_its_twin_in_the_plane() {
 #[test]
 fn every_method_goes_the_same_way() {
     let of = |method| {
-        let mut scene = lively(angular(25.0)).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-9);
-        scene = scene.damping(Damping::HuntCrossley(2.0));
-        let mut scene = scene.build().unwrap();
+        let scene = lively(angular(25.0)).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-9);
+        let mut scene = scene.damping(Damping::HuntCrossley(2.0)).build().unwrap();
         scene.shaft.tilt.load_moment = [0.4, 0.2];
         let mut simulation = started(scene);
         simulation.set_method(method);
@@ -172,22 +140,11 @@ fn every_method_goes_the_same_way() {
 fn a_state_put_back_goes_on_with_the_same_bits() {
     let mut scene = lively(b6205(8e-6)).degrees_of_freedom(DegreesOfFreedom::Five).tolerance(1e-6).build().unwrap();
     scene.shaft.tilt.load_moment = [0.4, 0.2];
-    let mut simulation = started(scene);
-    simulation.set("shaft.load.z", 400.0).unwrap();
-    simulation.step(1e-3).unwrap();
-    let bytes = simulation.save().to_bytes();
-    assert_eq!(bytes.len(), simulation.save().byte_count());
-    let names =
-        ["shaft.x", "shaft.z", "shaft.tilt.x", "element[3].axial", "element[3].force.outer", "shaft.mean_force.z"];
-    let names: Vec<&str> = names.into_iter().filter(|name| simulation.reference(name).is_ok()).collect();
-    let go_on = |simulation: &mut Simulation| {
-        simulation.step(1e-3).unwrap();
-        names.iter().map(|name| simulation.get(name).unwrap().to_bits()).collect::<Vec<_>>()
-    };
-    let first = go_on(&mut simulation);
-    let state = simulation.state_from_bytes(&bytes).unwrap();
-    simulation.restore(&state).unwrap();
-    assert_eq!(go_on(&mut simulation), first);
+    let [mut bearing, mut other] = [scene.clone(), scene].map(Named::started);
+    bearing.set("shaft.load.z", 400.0);
+    bearing.run(1e-3, 1);
+    let names = ["shaft.x", "shaft.z", "shaft.tilt.x", "element[3].axial", "element[3].force.outer"];
+    bearing.goes_on_alike(&mut other, names, 1e-3, 1);
 }
 
 #[test]
@@ -236,34 +193,15 @@ fn balls_without_inertia_follow_those_with_inertia_where_nothing_rings() {
 #[test]
 fn balls_without_inertia_have_the_directional_derivatives_of_differences() {
     let bearing = Bearing { element_inertia: ElementInertia::None, ..b6205(8e-6) };
-    let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).shaft_speed(TAU * 40.0);
-    let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).law(ContactLaw::Hertz).cage(0.0, -1.3);
-    let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
-    let inputs =
-        [("shaft.y", -2e-6, 1e-9), ("shaft.z", 90e-6, 1e-9), ("shaft.tilt.x", 3e-4, 1e-7), ("shaft.vz", 1e-3, 1e-5)];
-    for (name, value, _) in inputs {
-        simulation.set(name, value).unwrap();
-    }
-    simulation.initialize(0.0).unwrap();
+    let scene = hosted_shaft(bearing, DegreesOfFreedom::Five).shaft_speed(TAU * 40.0).law(ContactLaw::Hertz);
+    let place = [("shaft.y", -2e-6), ("shaft.z", 90e-6), ("shaft.tilt.x", 3e-4), ("shaft.vz", 1e-3)];
+    let scene = scene.cage(0.0, -1.3).build().unwrap();
+    let mut simulation = started_with(Simulation::new(scene, None).unwrap(), &place);
     let names = ["shaft.force.z", "shaft.moment.x", "element[2].force.outer", "element[2].axial", "element[3].path"];
-    let outputs = names.map(|name| simulation.reference(name).unwrap());
-    for (name, value, h) in inputs {
-        let input = simulation.reference(name).unwrap();
-        let mut exact = [0.0; 5];
-        simulation.directional_derivative(&outputs, &[input], &[1.0], &mut exact).unwrap();
-        let mut at = |by: f64| {
-            simulation.set(name, value + by).unwrap();
-            let mut found = [0.0; 5];
-            simulation.reals(&outputs, &mut found).unwrap();
-            found
-        };
-        let (above, below) = (at(h), at(-h));
-        at(0.0);
-        for k in 0..5 {
-            let quotient = (above[k] - below[k]) / (2.0 * h);
-            let size = above[k].abs().max(below[k].abs());
-            let limit = 1e-4 * quotient.abs().max(exact[k].abs()) + 1e-10 * size / h;
-            assert!((quotient - exact[k]).abs() <= limit, "{} by {name}: {:e} {quotient:e}", names[k], exact[k]);
+    for ((input, _), h) in place.into_iter().zip([1e-9, 1e-9, 1e-7, 1e-5]) {
+        for (slope, name) in by_input(&mut simulation, &names, input, h).iter().zip(names) {
+            let limit = 1e-4 * slope.largest() + 1e-10 * slope.size / h;
+            assert!(slope.miss() <= limit, "{name} by {input}: {slope:?}");
         }
     }
 }
@@ -278,8 +216,7 @@ fn what_is_not_modelled_in_space_is_refused_by_name() {
 
 #[test]
 fn rings_pushed_beyond_their_grooves_stop_the_step_with_the_reason() {
-    let scene = Scene::builder(b6205(8e-6)).degrees_of_freedom(DegreesOfFreedom::Five);
-    let mut simulation = started(scene.shaft(Ring::hosted()).housing(Ring::fixed()).build().unwrap());
+    let mut simulation = started(hosted_shaft(b6205(8e-6), DegreesOfFreedom::Five).build().unwrap());
     // A of a 6205 is 0.3176 mm.
     let refused = simulation.set("shaft.z", 0.4e-3).unwrap_err().to_string();
     assert!(refused.contains("shaft.z") && refused.contains("0.0004") && refused.contains("0.0003176"), "{refused}");
@@ -292,15 +229,11 @@ fn rings_pushed_beyond_their_grooves_stop_the_step_with_the_reason() {
 #[test]
 fn under_every_law_a_ball_over_a_line_spall_carries_about_the_same() {
     let of = |law| {
-        let bearing = Bearing { operating_angle: Some(15f64.to_radians()), ..b6205(8e-6) };
-        let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Three).cage(0.0, -0.5 * PI + 0.01);
-        let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).spall(-0.5 * PI, 0.5e-3, 50e-6).law(law);
-        let scene = scene.contact_cells([24, 12]).map_accuracy(0.05).largest_force(600.0);
-        let mut simulation = Simulation::new(scene.build().unwrap(), None).unwrap();
-        for (name, value) in [("shaft.y", -3e-6), ("shaft.z", 95e-6)] {
-            simulation.set(name, value).unwrap();
-        }
-        simulation.initialize(0.0).unwrap();
+        let scene = hosted_shaft(b6205_at_15_degrees(), DegreesOfFreedom::Three).cage(0.0, -0.5 * PI + 0.01);
+        let scene = scene.spall(-0.5 * PI, 0.5e-3, 50e-6).law(law);
+        let scene = scene.contact_cells([24, 12]).map_accuracy(0.05).largest_force(600.0).build().unwrap();
+        let place = [("shaft.y", -3e-6), ("shaft.z", 95e-6)];
+        let mut simulation = started_with(Simulation::new(scene, None).unwrap(), &place);
         let names =
             ["element[1].force.outer", "element[1].contact_angle.outer", "shaft.force.z", "element[5].force.outer"];
         values(&mut simulation, names)

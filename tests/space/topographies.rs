@@ -2,8 +2,8 @@
 //! `love`, what they conserve, and what is refused.
 
 use super::*;
+use crate::support::energy::energy;
 use brinell::contact::rolling::RacewaySide;
-use brinell::dynamics::contacts::Forces;
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
@@ -40,10 +40,13 @@ fn defect(on: DefectOn, off: f64) -> Defect {
 
 /// A 6205 whose shaft is the host's, ball 1 below.
 fn held(defect: Defect, law: ContactLaw) -> Scene {
-    let bearing = Bearing { operating_angle: Some(15f64.to_radians()), ..b6205(8e-6) };
-    let scene = Scene::builder(bearing).degrees_of_freedom(DegreesOfFreedom::Five).cage(0.0, -FRAC_PI_2);
-    let scene = scene.shaft(Ring::hosted()).housing(Ring::fixed()).defect(defect).law(law);
-    scene.contact_cells([24, 16]).map_accuracy(0.02).largest_force(600.0).build().unwrap()
+    let scene = hosted_shaft(b6205_at_15_degrees(), DegreesOfFreedom::Five).cage(0.0, -FRAC_PI_2);
+    scene.defect(defect).law(law).contact_cells([24, 16]).map_accuracy(0.02).largest_force(600.0).build().unwrap()
+}
+
+/// Started with the shaft pressed onto ball 1 and along its axis, and tilted (rad).
+fn pressed(simulation: Simulation, tilt: f64) -> Simulation {
+    started_with(simulation, &[("shaft.y", -3e-6), ("shaft.z", 95e-6), ("shaft.tilt.x", tilt)])
 }
 
 /// Force on ball 1 from a side and from the other, angles, force and moment on the shaft.
@@ -51,11 +54,8 @@ fn loaded(scene: Scene, text: &str, tilt: f64) -> Vec<f64> {
     tilted(Simulation::new(scene, [text]).unwrap(), tilt)
 }
 
-fn tilted(mut simulation: Simulation, tilt: f64) -> Vec<f64> {
-    for (name, value) in [("shaft.y", -3e-6), ("shaft.z", 95e-6), ("shaft.tilt.x", tilt)] {
-        simulation.set(name, value).unwrap();
-    }
-    simulation.initialize(0.0).unwrap();
+fn tilted(simulation: Simulation, tilt: f64) -> Vec<f64> {
+    let mut simulation = pressed(simulation, tilt);
     let names = [
         "element[1].force.inner",
         "element[1].force.outer",
@@ -113,8 +113,8 @@ fn slices_agree_with_law_love(on: DefectOn, side: RacewaySide) {
 fn undamped(law: ContactLaw) -> Scene {
     let mut shaft = Ring { damping: 0.0, ..Ring::default_shaft() };
     shaft.axial.damping = 0.0;
-    let bearing = Bearing { operating_angle: Some(15f64.to_radians()), ..b6205(8e-6) };
-    let scene = free_shaft(bearing, DegreesOfFreedom::Three).shaft_speed(TAU * 40.0).cage(0.0, -FRAC_PI_2 - 0.02);
+    let scene =
+        free_shaft(b6205_at_15_degrees(), DegreesOfFreedom::Three).shaft_speed(TAU * 40.0).cage(0.0, -FRAC_PI_2 - 0.02);
     let scene = scene.shaft(shaft).shaft_load([0.0, -300.0]).axial_load(330.0).law(law).tolerance(1e-10);
     let scene = scene.damping(Damping::HuntCrossley(0.0)).defect(defect(DefectOn::Outer, 0.0));
     let mut scene = scene.contact_cells([24, 16]).map_accuracy(0.02).largest_force(600.0).build().unwrap();
@@ -122,39 +122,11 @@ fn undamped(law: ContactLaw) -> Scene {
     scene
 }
 
-/// Kinetic energy, that of the loads and of gravity, and 2/5 K Δ^(5/2) of each contact.
-fn energy(simulation: &mut Simulation) -> f64 {
-    let position = values(simulation, ["shaft.x", "shaft.y", "shaft.z"]);
-    let velocity = values(simulation, ["shaft.vx", "shaft.vy", "shaft.vz"]);
-    let speed = simulation.get("cage.speed").unwrap();
-    let angles: Vec<f64> = (1..10).map(|j| simulation.get(&format!("element[{j}].angle")).unwrap()).collect();
-    let mass = simulation.scene().shaft.mass;
-    let (model, excitation) = simulation.equations();
-    let (state, layout) = (simulation.state_vector(), &model.layout);
-    let mut forces = Forces::of(model);
-    model.derivative(&excitation, 0.0, simulation.cells(), state, &mut vec![0.0; layout.len], &mut forces);
-    let [_, w_z] = layout.axial().unwrap();
-    let mut sum = 0.5 * mass * velocity.iter().map(|v| v * v).sum::<f64>();
-    sum -= [0.0, -300.0, 330.0].iter().zip(position).map(|(load, x)| load * x).sum::<f64>();
-    for (j, angle) in angles.iter().enumerate() {
-        let rho = model.outer_centre_radius + state[j];
-        let (w, axial) = (state[layout.radial_velocity + j], state[w_z + j]);
-        let m = model.element_mass;
-        sum += 0.5 * m * (w * w + (rho * speed).powi(2) + axial * axial) + m * 9.81 * rho * angle.sin();
-        for (raceway, approach) in
-            [(&model.inner, forces.contacts.inner_approach[j]), (&model.outer, forces.contacts.outer_approach[j])]
-        {
-            sum += 0.4 * raceway.contact.law.stiffness * approach.max(0.0).powf(2.5);
-        }
-    }
-    sum
-}
-
 #[test]
 fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
-    let mut simulation = Simulation::new(undamped(ContactLaw::Map), [&*pit(RacewaySide::Outer)]).unwrap();
-    simulation.initialize(0.0).unwrap();
-    let first = energy(&mut simulation);
+    let scene = undamped(ContactLaw::Map);
+    let mut simulation = started_with(Simulation::new(scene.clone(), [&*pit(RacewaySide::Outer)]).unwrap(), &[]);
+    let [first, _] = energy(&mut simulation, &scene);
     let (mut forces, mut angles) = ([f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
     let work = work_of_cage(&mut simulation, 800, |simulation| {
         let found = values(simulation, ["element[1].force.outer", "element[1].contact_angle.outer"]);
@@ -162,8 +134,7 @@ fn a_ball_over_a_pit_beside_its_track_conserves_energy() {
             *range = [range[0].min(value), range[1].max(value)];
         }
     });
-    let lost = energy(&mut simulation) - first - work;
-    println!("{lost:e} of {work:e}, forces {forces:?}, angles {angles:?}");
+    let lost = energy(&mut simulation, &scene)[0] - first - work;
     // A contact of 200 N stores 0.3 mJ. What is left is Simpson's rule over steps of the map's curvature: it changes
     // sign with half the step, and stays with a tolerance of 1e-9 or 1e-11. The force across, some 10 N on a ball that
     // it moves by micrometres, does thousands of times as much work.
@@ -188,13 +159,8 @@ fn a_topography_that_does_not_reach_the_track_is_refused_with_both_places() {
 #[test]
 fn contacts_beside_the_slices_are_counted_and_only_such_scenes_have_the_counter() {
     let counted = |tilt: f64| {
-        let mut simulation =
-            Simulation::new(held(defect(DefectOn::Outer, 0.004), ContactLaw::Map), [&*pit(RacewaySide::Outer)])
-                .unwrap();
-        for (name, value) in [("shaft.y", -3e-6), ("shaft.z", 95e-6), ("shaft.tilt.x", tilt)] {
-            simulation.set(name, value).unwrap();
-        }
-        simulation.initialize(0.0).unwrap();
+        let scene = held(defect(DefectOn::Outer, 0.004), ContactLaw::Map);
+        let mut simulation = pressed(Simulation::new(scene, [&*pit(RacewaySide::Outer)]).unwrap(), tilt);
         simulation.step(5e-5).unwrap();
         let mut count = [0];
         simulation.counts(&[simulation.reference("solver.off_track_contacts").unwrap()], &mut count).unwrap();

@@ -2,7 +2,7 @@
 
 use super::{Named, shipped};
 use brinell::dynamics::parameters::SMOOTH;
-use brinell::scene::{Defect, DefectOn, DefectShape, Ring, Scene};
+use brinell::scene::{ContactLaw, Defect, DefectOn, DefectShape, Ring, Scene};
 use std::f64::consts::FRAC_PI_2;
 
 /// Speeds of the ER16K at 10 Hz against the inner raceway and of an element's own turning against the cage (rad/s).
@@ -11,6 +11,18 @@ pub const SPIN: f64 = 149.2322;
 
 pub fn spall(length: f64, depth: f64) -> DefectShape {
     DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }
+}
+
+/// So short and shallow that a contact bridges it.
+pub fn short_spall() -> DefectShape {
+    spall(2e-4, 2e-6)
+}
+
+/// As fine a map as energy asks for, of a coarse grid.
+pub fn mapped(mut scene: Scene) -> Scene {
+    (scene.contact.law, scene.contact.cells) = (ContactLaw::Map, Some([24, 16]));
+    scene.contact.map_accuracy = Some(1e-2);
+    scene
 }
 
 /// How many contacts of a run of 400 steps were kept in cells of defects, and how many of all in another than that of

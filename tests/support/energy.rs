@@ -1,53 +1,70 @@
-//! Energy of a held bearing, and what its forced motions take out of it.
+//! Energy of a held bearing with balls, and what its forced motions take out of it.
 
 use super::Named;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::parameters::Frame;
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::Scene;
+use brinell::simulation::Simulation;
 
-/// All energy of a bearing with balls whose outer ring is held: shaft, elements, contacts, load and gravity (J); and
-/// what leaves it by forced motions (W).
-pub fn energy_and_power(bearing: &mut Named, scene: &Scene) -> [f64; 2] {
-    let cage_torque = bearing.get("cage.torque");
-    let (model, excitation) = bearing.0.equations();
-    let state = bearing.0.state_vector();
-    let cells = model.cells_at(&excitation, 0.0, state);
+fn forces(simulation: &Simulation) -> Forces {
+    let (model, excitation) = simulation.equations();
+    let state = simulation.state_vector();
     let mut forces = Forces::of(model);
-    model.derivative(&excitation, 0.0, &cells, state, &mut vec![0.0; state.len()], &mut forces);
-    let layout = &model.layout;
-    let stored = |k: f64, approach: f64| 0.4 * k * approach.max(0.0).powf(2.5);
-    let i = layout.shaft.unwrap();
-    let mut energy = 0.5 * scene.shaft.mass * (state[i + 2].powi(2) + state[i + 3].powi(2));
-    energy -= scene.shaft.load[0] * state[i] + scene.shaft.load[1] * state[i + 1];
-    let speed = excitation.cage.0[1];
+    model.derivative(&excitation, 0.0, simulation.cells(), state, &mut vec![0.0; state.len()], &mut forces);
+    forces
+}
+
+/// All energy (J) of a bearing whose outer ring is held, in the plane or with a shaft that moves along its axis too:
+/// shaft, elements, contacts, loads as the scene has them and gravity; and that of the shaft's motion.
+pub fn energy(simulation: &mut Simulation, scene: &Scene) -> [f64; 2] {
+    let (axial, ring) = (simulation.equations().0.layout.axial(), &scene.shaft);
+    let preload = scene.bearing.contact_angle.map_or(0.0, |angle| ring.axial.preload.copysign(angle));
+    let loads = [ring.load[0], ring.load[1], ring.axial.load + preload];
+    let (mut of_shaft, mut energy) = (0.0, 0.0);
+    for (axis, load) in ["x", "y", "z"].iter().zip(loads).take(if axial.is_some() { 3 } else { 2 }) {
+        let [x, v] = ["", "v"].map(|of| simulation.get(&format!("shaft.{of}{axis}")).unwrap());
+        of_shaft += 0.5 * ring.mass * v * v;
+        energy -= load * x;
+    }
+    let contacts = forces(simulation).contacts;
+    let (model, excitation) = simulation.equations();
+    let (state, speed) = (simulation.state_vector(), excitation.cage.0[1]);
     for j in 0..model.element_count {
         let larger = scene.bearing.diameter_offsets.get(j).copied().unwrap_or(0.0);
         let own = scene.bearing.with_elements_larger(larger);
         let (hertz, mass) = (HertzConstants::of(&own), own.mass_of_element());
         let rho = own.outer_raceway_radius() - own.element_radius() + state[j];
-        let (w, angle) = (state[layout.radial_velocity + j], excitation.cage_start + model.element_offset(j));
-        energy += 0.5 * mass * (w * w + (rho * speed).powi(2));
+        let along = axial.map_or(0.0, |[_, velocity]| state[velocity + j]);
+        let (w, angle) = (state[model.layout.radial_velocity + j], excitation.cage_start + model.element_offset(j));
+        energy += 0.5 * mass * (w * w + (rho * speed).powi(2) + along * along);
         energy -= mass * rho * (scene.gravity[0] * angle.cos() + scene.gravity[1] * angle.sin());
-        energy += stored(hertz.inner, forces.contacts.inner_approach[j]);
-        energy += stored(hertz.outer, forces.contacts.outer_approach[j]);
+        for (k, approach) in [(hertz.inner, contacts.inner_approach[j]), (hertz.outer, contacts.outer_approach[j])] {
+            energy += 0.4 * k * approach.max(0.0).powf(2.5);
+        }
     }
-    let spin = excitation.frames[Frame::Spin as usize].since.0[1];
-    let power = forces.torque_on(Frame::Shaft) * scene.shaft_speed
+    [energy + of_shaft, of_shaft]
+}
+
+/// What leaves a bearing by forced motions (W).
+fn power(bearing: &mut Named, scene: &Scene) -> f64 {
+    let (cage_torque, forces) = (bearing.get("cage.torque"), forces(&bearing.0));
+    let (_, excitation) = bearing.0.equations();
+    let (speed, spin) = (excitation.cage.0[1], excitation.frames[Frame::Spin as usize].since.0[1]);
+    forces.torque_on(Frame::Shaft) * scene.shaft_speed
         + cage_torque * speed
-        + forces.torque_on(Frame::Spin) * (spin - speed);
-    [energy, power]
+        + forces.torque_on(Frame::Spin) * (spin - speed)
 }
 
 /// What a run of so many steps (s) exchanges with its forced motions at most, and what is lost beside that (J).
 pub fn exchanged_and_lost(bearing: &mut Named, scene: &Scene, step: f64, count: usize) -> [f64; 2] {
-    let [start, mut power] = energy_and_power(bearing, scene);
+    let ([start, _], mut before) = (energy(&mut bearing.0, scene), power(bearing, scene));
     let (mut left, mut drift, mut moved) = (0.0, 0.0f64, 0.0f64);
     for _ in 0..count {
         bearing.0.step(step).unwrap();
-        let [energy, now] = energy_and_power(bearing, scene);
-        left += 0.5 * step * (power + now);
-        power = now;
+        let ([energy, _], now) = (energy(&mut bearing.0, scene), power(bearing, scene));
+        left += 0.5 * step * (before + now);
+        before = now;
         drift = drift.max((energy + left - start).abs());
         moved = moved.max(left.abs());
     }

@@ -37,18 +37,16 @@ pub fn lines<const N: usize>(scene: Scene, orders: [usize; N]) -> [f64; N] {
     let mut bearing = Named::started(scene);
     // What vibrates at the start dies away.
     bearing.run(1e-3, 20);
-    let count = 2000;
-    let force: Vec<f64> = (0..count)
-        .map(|_| {
-            bearing.0.step(time / count as f64).unwrap();
-            bearing.get("shaft.force.y")
-        })
-        .collect();
-    orders.map(|order| {
-        let [re, im] = force.iter().enumerate().fold([0.0; 2], |[re, im], (k, force)| {
-            let (sin, cos) = (TAU * ((order * k) % count) as f64 / count as f64).sin_cos();
-            [re + force * cos, im + force * sin]
-        });
-        2.0 * re.hypot(im) / count as f64
-    })
+    let force = bearing.course(["shaft.force.y"], time / 2000.0, 2000);
+    orders.map(|order| amplitude(force.as_flattened(), order))
+}
+
+/// Amplitude of a line that goes through so many periods in a signal.
+pub fn amplitude(signal: &[f64], order: usize) -> f64 {
+    let count = signal.len();
+    let [re, im] = signal.iter().enumerate().fold([0.0; 2], |[re, im], (k, value)| {
+        let (sin, cos) = (TAU * ((order * k) % count) as f64 / count as f64).sin_cos();
+        [re + value * cos, im + value * sin]
+    });
+    2.0 * re.hypot(im) / count as f64
 }

@@ -4,7 +4,8 @@
 #![allow(unreachable_pub, dead_code, clippy::unwrap_used)]
 
 use brinell::geometry::kinematics;
-use brinell::scene::Scene;
+use brinell::scene::{ContactLaw, Scene};
+use brinell::simulation::Simulation;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::TAU;
 
@@ -35,6 +36,22 @@ pub fn scene() -> Scene {
         "#,
     )
     .unwrap()
+}
+
+/// A shipped scene under the contact law that needs no map.
+pub fn shipped(name: &str) -> Scene {
+    let text = std::fs::read_to_string(brinell_tests::root().join(format!("scenes/{name}.toml"))).unwrap();
+    let mut scene = brinell_scene_file::from_toml(&text).unwrap();
+    scene.contact.law = ContactLaw::Hertz;
+    scene
+}
+
+/// What the sensor of a scene records at a rate (Hz).
+pub fn recorded(scene: Scene, rate: f64, seconds: f64) -> Vec<f64> {
+    let mut simulation = Simulation::new(scene, None).unwrap();
+    simulation.initialize(0.0).unwrap();
+    let samples = simulation.samples(&["sensor.acceleration"], 1.0 / rate).unwrap();
+    samples.skip(1).take((seconds * rate) as usize).map(|sample| sample.unwrap().values[0]).collect()
 }
 
 /// A spall as its events show it.

@@ -1,13 +1,12 @@
 //! A pit beside the track of a ball at a contact angle: slices of law `map` against law `love`, and that against the
 //! fine grid of pressures, wherever the contact is across the groove.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
 use brinell::contact::across::Slices;
 use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::love::{LoveContact, Resolution};
-use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::map::MapSpecification;
 use brinell::contact::near_defect::{Approach, LoveSolvers, NearDefect, NearMap};
 use brinell::contact::rolling::RacewaySide;
 use brinell::scene::Bearing;
@@ -20,23 +19,19 @@ const CELLS: Resolution = Resolution { columns: 24, rows: 16 };
 /// Distance of the ball's centre from the ring's axis (m), which only scales what is not asked for here.
 const DISTANCE: f64 = 19.5e-3;
 
+fn bearing() -> Bearing {
+    Bearing { radial_clearance: 8e-6, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) }
+}
+
 fn element() -> ElementOnRaceway {
-    let bearing = Bearing { radial_clearance: 8e-6, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
-    ElementOnRaceway::at_angle(&bearing, RacewaySide::Outer, 15f64.to_radians())
+    ElementOnRaceway::at_angle(&bearing(), RacewaySide::Outer, 15f64.to_radians())
 }
 
 /// A smooth pit, 0.6 mm long and 1.6 mm wide, 5 µm deep; its middle is 0.3 mm from arc and place 0.
 fn pit() -> Topography {
-    let mut text = String::from("arc_mm,axial_mm,depth_um\n");
     let hump =
         |x: f64, half: f64| if x.abs() < half { (0.5 * std::f64::consts::PI * x / half).cos().powi(2) } else { 0.0 };
-    for i in 0..=100 {
-        for j in 0..=40 {
-            let (s, y) = (f64::from(i) * 0.006 - 0.3, f64::from(j) * 0.05 - 0.7);
-            writeln!(text, "{s:.5},{y:.5},{:.6}", 5.0 * hump(s, 0.3) * hump(y - 0.3, 0.8)).unwrap();
-        }
-    }
-    Topography::from_csv(&text).unwrap()
+    crate::topography(-50..51, 0.006, -14..27, 0.05, |s, y| 5.0 * hump(s, 0.3) * hump(y - 0.3, 0.8))
 }
 
 /// Δ with its slopes by path, arc and place.
@@ -112,7 +107,7 @@ fn slices(beside: i32, distance: f64) -> NearDefect {
     let specification = MapSpecification { accuracy: 5e-3, resolution: CELLS, ..MapSpecification::new(LARGEST) };
     let map = |k: i32| {
         let surface = Surface::Topography(pit().seen_from(f64::from(k) * distance));
-        Arc::new(ContactMap::build(&surface, element(), specification, &mut Sequential(|_, _| ())).unwrap())
+        Arc::new(crate::built(&surface, element(), specification))
     };
     let maps: Vec<_> = (-beside..=beside).map(map).collect();
     let end = f64::from(beside) * distance;
@@ -179,14 +174,13 @@ fn forces_by_slices_are_slopes_of_one_approach_and_end_without_a_jump() {
 fn the_contact_beside_the_track_is_that_of_the_fine_grid_of_pressures() {
     let topography = pit();
     let mut love = love(&Surface::Topography(topography.clone()), Resolution { columns: 48, rows: 32 });
-    let bearing = Bearing { radial_clearance: 8e-6, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
-    let modulus = brinell::geometry::hertz_constant::effective_modulus(&bearing);
+    let modulus = brinell::geometry::hertz_constant::effective_modulus(&bearing());
     for [s, place] in [[0.0, 0.0], [0.1e-3, 0.3e-3], [-0.25e-3, 0.5e-3], [0.05e-3, -0.4e-3]] {
         let surface = Surface::Topography(topography.seen_from(place));
         let ball = BallOnRaceway {
             bodies: element(),
             effective_modulus: modulus,
-            poissons_ratio: bearing.poissons_ratio,
+            poissons_ratio: bearing().poissons_ratio,
             pressure_limit: f64::INFINITY,
             defects: vec![DefectBelow { surface, arc: s }],
         };
@@ -202,7 +196,6 @@ fn the_contact_beside_the_track_is_that_of_the_fine_grid_of_pressures() {
         let area = pressed.cell[0] * pressed.cell[1];
         let across: f64 =
             pressed.under_pressure().map(|cell| pressed.pressure[cell] * area * slope(pressed.centre(cell)[1])).sum();
-        println!("{s:e} {place:e}: {} of the force, across {} for {across} N", scale * du, force * scale * dy);
         // Some 1e-3 of the force at an edge; the pit is smooth.
         assert!((scale * du - 1.0).abs() < 1e-3, "{s:e} {place:e}: {}", scale * du);
         assert!((force * scale * dy - across).abs() < 2e-6 * force, "{s:e} {place:e}: {across}");

@@ -1,13 +1,11 @@
 //! Warm contacts allocate nothing: counted by the program's own allocator.
-//!
-//! One test only, for the count is the whole program's.
 
 use crate::er16k;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::counting::counted;
 use brinell::contact::love::{LoveContact, Resolution};
-use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::map::MapSpecification;
 use brinell::surface::{Profile, Surface};
 
 #[test]
@@ -16,7 +14,7 @@ fn contacts_of_an_element_that_passes_an_edge_allocate_nothing() {
     let surface = Surface::Profile(Profile::spall(6.517e-3, 100e-6, FRAC_PI_2));
     let resolution = Resolution { columns: 32, rows: 16 };
     let specification = MapSpecification { accuracy: 3e-2, resolution, ..MapSpecification::new(10e-6) };
-    let map = ContactMap::build(&surface, element, specification, &mut Sequential(|_, _| ())).unwrap();
+    let map = crate::built(&surface, element, specification);
     let mut love = LoveContact::new(element, &surface, 10e-6, resolution).unwrap();
     let (sum, allocations) = counted(|| {
         let mut sum = 0.0;

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 use std::sync::Arc;
 
 use crate::er16k::OUTER;
-use brinell::contact::map::{ContactMap, ContactMaps, Flanks, MapSpecification, Sequential};
+use crate::support::Named;
+use brinell::contact::map::{ContactMaps, Flanks, MapSpecification, Sequential};
 use brinell::scene::{Bearing, Scene};
 use brinell::simulation::{Simulation, setup};
 use brinell::surface::{Profile, Surface};
@@ -36,10 +37,8 @@ fn spalls_with_the_same_flanks_have_one_surface_to_the_bit_and_short_ones_none()
             let other = of(length).unwrap();
             assert_eq!(other.surface, first.surface, "{length}");
             let [before, behind] = other.moved;
-            assert!(
-                before == -behind && (0.0..length - shortest + 2e-5).contains(&(2.0 * behind)),
-                "{before} {behind}"
-            );
+            assert_eq!(before, -behind);
+            assert!((0.0..length - shortest + 2e-5).contains(&(2.0 * behind)), "{behind}");
         }
         assert!(first.surface != flanks(shortest + 1e-3, 1.1 * FRAC_PI_6).unwrap().surface);
     }
@@ -47,9 +46,7 @@ fn spalls_with_the_same_flanks_have_one_surface_to_the_bit_and_short_ones_none()
 
 #[test]
 fn the_map_of_the_flanks_is_that_of_the_whole_spall_where_they_are() {
-    let (length, build) = (6.517e-3, |surface: &Surface| {
-        ContactMap::build(surface, OUTER, specification(), &mut Sequential(|_, _| ())).unwrap()
-    });
+    let (length, build) = (6.517e-3, |surface: &Surface| crate::built(surface, OUTER, specification()));
     for slope in [FRAC_PI_2, FRAC_PI_6] {
         let Flanks { surface, moved } = flanks(length, slope).unwrap();
         let (whole, short) = (build(&spall(length, slope)), build(&surface));
@@ -87,13 +84,9 @@ fn scene(length: f64, flank_map: bool) -> Scene {
 
 /// Accelerations of the housing over 80 ms, in which balls pass three edges.
 fn run(scene: Scene, map: Option<&[u8]>) -> Vec<f64> {
-    let mut simulation = Simulation::with_map(scene, None, map).unwrap();
-    simulation.initialize(0.0).unwrap();
-    let sample = |_| {
-        simulation.step(1e-4).unwrap();
-        simulation.get("housing.ay").unwrap()
-    };
-    (0..800).map(sample).collect()
+    let mut bearing = Named(Simulation::with_map(scene, None, map).unwrap());
+    bearing.0.initialize(0.0).unwrap();
+    bearing.course(["housing.ay"], 1e-4, 800).concat()
 }
 
 #[test]

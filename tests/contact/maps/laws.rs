@@ -1,6 +1,6 @@
 //! One entry into a spall and out of it under the three contact laws: the same events.
 
-use crate::support::shipped_as_it_is;
+use crate::support::{Named, shipped_as_it_is};
 use brinell::scene::ContactLaw;
 use brinell::simulation::Simulation;
 
@@ -13,17 +13,9 @@ fn force(law: ContactLaw) -> Vec<f64> {
     // Coarse: the test is about events.
     scene.contact.cells = Some([32, 16]);
     scene.contact.map_accuracy = Some(3e-3);
-    let mut simulation = Simulation::new(scene, None).unwrap();
-    let reference = simulation.reference("element[1].force.outer").unwrap();
-    simulation.initialize(0.0).unwrap();
-    (0..(0.02 * RATE) as usize)
-        .map(|_| {
-            simulation.step(1.0 / RATE).unwrap();
-            let mut value = [0.0];
-            simulation.reals(&[reference], &mut value).unwrap();
-            value[0]
-        })
-        .collect()
+    let mut bearing = Named(Simulation::new(scene, None).unwrap());
+    bearing.0.initialize(0.0).unwrap();
+    bearing.course(["element[1].force.outer"], 1.0 / RATE, (0.02 * RATE) as usize).concat()
 }
 
 #[test]
@@ -34,7 +26,6 @@ fn an_element_is_unloaded_struck_and_loaded_again_at_the_same_times_under_all_la
         let peak = (unloaded..force.len()).max_by(|&a, &b| force[a].total_cmp(&force[b])).unwrap();
         (unloaded as f64 / RATE, peak as f64 / RATE, force[peak])
     });
-    println!("{events:?}");
     let [love, map, hertz] = events;
     // A sample is 0.02 ms; the map's error is 3e-3 of twice the force, the grid's own steps as much.
     assert!((map.0 - love.0).abs() < 5e-5 && (map.1 - love.1).abs() < 1e-4, "{map:?} {love:?}");

@@ -7,7 +7,7 @@ use crate::er16k::OUTER as ER16K;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
 use brinell::contact::love::{LoveContact, Resolution};
-use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::map::{ContactMap, MapSpecification};
 use brinell::surface::{Profile, Surface, Topography};
 
 const LENGTH: f64 = 6.517e-3;
@@ -32,7 +32,7 @@ fn coarse_map() -> &'static ContactMap {
 }
 
 fn build(accuracy: f64) -> ContactMap {
-    ContactMap::build(&line_spall(), ER16K, specification(accuracy), &mut Sequential(|_, _| ())).unwrap()
+    crate::built(&line_spall(), ER16K, specification(accuracy))
 }
 
 #[test]
@@ -111,10 +111,8 @@ fn the_map_joins_the_closed_forms_in_value_and_slope() {
             for s in [knot - 1e-12, knot + 1e-12] {
                 let a = map.lookup(u + depth, s).unwrap();
                 // Rounding of 3 mm and 1 pm beside the knot.
-                assert!(
-                    (a.value - u).abs() < 1e-15 && (a.du - 1.0).abs() < 1e-8 && a.ds.abs() < 1e-8,
-                    "{knot} {u}: {a:?}"
-                );
+                let is_joined = (a.value - u).abs() < 1e-15 && (a.du - 1.0).abs() < 1e-8 && a.ds.abs() < 1e-8;
+                assert!(is_joined, "{knot} {u}: {a:?}");
             }
         }
     }
@@ -123,7 +121,7 @@ fn the_map_joins_the_closed_forms_in_value_and_slope() {
 #[test]
 fn the_far_half_of_a_symmetric_spall_is_the_near_ones_mirror_image() {
     let short = Surface::Profile(Profile::spall(0.4e-3, 100e-6, FRAC_PI_2));
-    let short = ContactMap::build(&short, ER16K, specification(1e-2), &mut Sequential(|_, _| ())).unwrap();
+    let short = crate::built(&short, ER16K, specification(1e-2));
     assert_eq!((coarse_map().knots().len(), short.knots().len()), (4, 2), "flanks apart, and in one patch");
     [coarse_map(), &short].into_iter().for_each(is_its_mirror_image);
 }
@@ -132,7 +130,7 @@ fn is_its_mirror_image(map: &ContactMap) {
     let [from, to] = [map.knots()[0], map.knots()[1].min(0.0)];
     let mut compared = 0;
     for n in 0..200 {
-        let (q, t) = ((0.754_877_666 * f64::from(n)).fract(), (0.569_840_291 * f64::from(n)).fract());
+        let [q, t] = crate::spread(n);
         let (s, u) = (from + q * (to - from), t * (LARGEST + 20e-6));
         let (Ok(near), Ok(far)) = (map.lookup(u, s), map.lookup(u, -s)) else { continue };
         // Rounding of the arc, 3 mm, times slopes of up to 0.1.
@@ -150,7 +148,7 @@ fn a_defect_that_is_hardly_asymmetric_has_a_map_of_each_flank() {
     let [half, shifted] = [0.5 * LENGTH, 0.5 * LENGTH + 1e-9];
     let points = vec![(-half, 0.0), (-half, depth), (shifted, depth), (shifted, 0.0)];
     let surface = Surface::Profile(Profile::from_points(points).unwrap());
-    let map = ContactMap::build(&surface, ER16K, specification(1e-2), &mut Sequential(|_, _| ())).unwrap();
+    let map = crate::built(&surface, ER16K, specification(1e-2));
     // The far flank is where the profile has it.
     let ends = [map.knots()[0] + half, map.knots()[3] - shifted];
     assert!((ends[0] + ends[1]).abs() < 1e-15, "{ends:?}");
@@ -217,10 +215,8 @@ fn impossible_elements_and_approaches_are_refused() {
         ElementOnRaceway { element_radius: f64::NAN, ..ER16K },
         ElementOnRaceway { raceway_radius: 1e-3, ..ER16K },
     ] {
-        assert!(matches!(
-            LoveContact::new(element, &line_spall(), 1e-5, resolution),
-            Err(ContactError::BadInput { .. })
-        ));
+        let refused = LoveContact::new(element, &line_spall(), 1e-5, resolution);
+        assert!(matches!(refused, Err(ContactError::BadInput { .. })));
     }
     for approach in [0.0, -1e-6, f64::NAN, 1e-3] {
         assert!(LoveContact::new(ER16K, &line_spall(), approach, resolution).is_err());
@@ -245,7 +241,6 @@ fn a_contact_map_holds_for_clearances_half_a_step_of_theirs_away() {
             most = most.max(a[0]);
         }
     }
-    println!("largest difference {largest:.1e} of full scale");
     // A tenth of a map's usual error, 1e-3; a shift of the edge by a hundredth of a cell would be as much.
     assert!(most > 0.5 && largest < 1e-4, "{most} {largest:e}");
 }

@@ -4,7 +4,7 @@
 use crate::er16k::{INNER, OUTER};
 use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::love::{LoveContact, Resolution};
-use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::map::MapSpecification;
 use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Profile, Surface};
 use std::f64::consts::FRAC_PI_2;
@@ -60,8 +60,7 @@ fn forces_over_an_edge_are_mirrored_and_those_of_finer_grids() {
 fn a_convex_raceway_lets_the_element_sink_half_as_much_again_as_a_concave_one() {
     // Over an edge a rigid element comes down by s²/(2 r_e); with little force Love's contact begins there, too.
     let mut inner = grid(2.74e-3, 48, 24);
-    let outer = ElementOnRaceway { raceway_radius: 23.6325e-3, raceway: RacewaySide::Outer, ..INNER };
-    let outer = LoveContact::new(outer, &spall(2.74e-3), 1.8 * LARGEST, Resolution { columns: 48, rows: 24 }).unwrap();
+    let outer = grid_on(OUTER, 2.74e-3, 48, 24);
     let past = 0.4e-3;
     let [inside, outside] = [inner.first_touch(past - 1.37e-3), outer.first_touch(past - 1.37e-3)];
     // 25.297 and 16.816 µm; the grid touches with the middle of its first cell, 4 µm from the edge.
@@ -81,12 +80,12 @@ fn the_map_follows_the_grid_and_the_grid_a_finer_one() {
     let mut outside = [0.0f64; 2];
     for (name, element, length) in cases {
         let specification = MapSpecification::new(LARGEST);
-        let map = ContactMap::build(&spall(length), element, specification, &mut Sequential(|_, _| ())).unwrap();
+        let map = crate::built(&spall(length), element, specification);
         let (mut contact, mut finer) = (grid_on(element, length, 48, 32), grid_on(element, length, 96, 64));
         let (mut of_map, mut of_grid, mut squares, mut count) = ([0.0f64; 2], [0.0f64; 2], [0.0f64; 2], 0);
         let (from, to) = (map.knots()[0], map.knots()[map.knots().len() - 1]);
         for n in 0..400 {
-            let (q, t) = ((0.754_877_666 * f64::from(n)).fract(), (0.569_840_291 * f64::from(n)).fract());
+            let [q, t] = crate::spread(n);
             let s = from + q * (to - from);
             let u = contact.first_touch(s) + t * 1.2 * LARGEST;
             if contact.solve(u, s).unwrap().value > LARGEST {

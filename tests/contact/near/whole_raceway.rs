@@ -44,11 +44,8 @@ fn on_a_ridge(law: ContactLaw, ridge: f64) -> f64 {
     let right = [(side, 0.0), (side + run, DEPTH * 1e6), (half - run, DEPTH * 1e6), (half, 0.0)];
     let points = right.iter().rev().map(|&(s, d)| (-s, d)).chain(right);
     let text: String = points.map(|(s, d)| format!("{s:.9},{d:.9}\n")).collect();
-    force(
-        standing(law, DefectShape::Profile("ridge.csv".into()), -FRAC_PI_2),
-        Some(&format!("arc_mm,depth_um\n{text}")),
-    )
-    .unwrap()
+    let scene = standing(law, DefectShape::Profile("ridge.csv".into()), -FRAC_PI_2);
+    force(scene, Some(&format!("arc_mm,depth_um\n{text}"))).unwrap()
 }
 
 /// The longest spall that is taken, from the refusal of a longer one (m).
@@ -77,10 +74,8 @@ fn a_spall_that_leaves_less_than_a_contact_is_refused_and_a_shorter_one_is_exact
     // 1e-6.
     let longest = limit(ContactLaw::Love);
     assert!(on_the_rest(ContactLaw::Love, longest * (1.0 + 1e-6)).is_err());
-    let (rest, ridge) = (
-        on_the_rest(ContactLaw::Love, longest * (1.0 - 1e-6)).unwrap(),
-        on_a_ridge(ContactLaw::Love, circumference() - longest),
-    );
+    let rest = on_the_rest(ContactLaw::Love, longest * (1.0 - 1e-6)).unwrap();
+    let ridge = on_a_ridge(ContactLaw::Love, circumference() - longest);
     // Cells lie otherwise on the two ridges: the grid's own ripple.
     assert!((rest / ridge - 1.0).abs() < 1e-4, "{rest} N on the rest, {ridge} N on a ridge");
     // The map is made on the same stretches.
@@ -102,10 +97,8 @@ fn raised_rims_that_lift_an_element_at_both_ends_at_once_are_refused() {
     let (element, radius) = (3.97e-3, circumference() / TAU);
     let rimmed = |share: f64| {
         let half = 0.5 * share * circumference();
-        RigidPath::new(
-            &[(-half, 0.0), (-half + 1e-4, -2e-6), (half - 1e-4, -2e-6), (half, 0.0)],
-            Rolling::outer_ring(element, radius),
-        )
+        let points = [(-half, 0.0), (-half + 1e-4, -2e-6), (half - 1e-4, -2e-6), (half, 0.0)];
+        RigidPath::new(&points, Rolling::outer_ring(element, radius))
     };
     // 2 µm lift an element over 0.14 mm on either side.
     let message = rimmed(0.999).unwrap_err().to_string();

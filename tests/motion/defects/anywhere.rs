@@ -1,10 +1,10 @@
 //! Defects of the inner raceway and of rolling elements, and outer rings that turn: closed forms, symmetries, energy.
 
-use crate::support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, spall};
+use crate::support::defects::{PAST_INNER, SPIN, cells_kept, element, inner, mapped, spall};
 use crate::support::energy::exchanged_and_lost;
-use crate::support::{Named, map_of};
+use crate::support::{Named, map_of, turned, turned_vector};
 use brinell::contact::rolling::RacewaySide;
-use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, Ring, Scene};
+use brinell::scene::{Damping, Defect, DefectOn, Ring, Scene};
 use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -29,14 +29,9 @@ fn frequencies_of_the_elements_spin_are_those_of_pure_rolling() {
 #[test]
 fn an_element_is_over_an_inner_spall_as_long_as_its_length_over_its_speed() {
     let mut bearing = Named::started(inner());
-    let step = 2e-6;
-    let mut inside = Vec::new();
-    for k in 0..6000 {
-        bearing.0.step(step).unwrap();
-        if bearing.get("shaft.torque") != 0.0 || bearing.get("element[1].force.inner") == 0.0 {
-            inside.push(f64::from(k) * step);
-        }
-    }
+    let course = bearing.course(["shaft.torque", "element[1].force.inner"], 2e-6, 6000);
+    let is_inside = |(k, &[torque, force]): (usize, &[f64; 2])| (torque != 0.0 || force == 0.0).then_some(k as f64);
+    let inside: Vec<f64> = course.iter().enumerate().filter_map(is_inside).map(|k| 2e-6 * k).collect();
     let (first, last) = (inside[0], inside[inside.len() - 1]);
     // Entry after 5 ms, except for the inner ring's swing: 10 µm are 17 µs.
     assert!((first - 5e-3).abs() < 60e-6, "enters after {first} s");
@@ -47,19 +42,11 @@ fn an_element_is_over_an_inner_spall_as_long_as_its_length_over_its_speed() {
 #[test]
 fn an_elements_spall_meets_the_raceways_half_a_turn_of_its_spin_apart() {
     let mut bearing = Named::started(element(0.4e-3));
-    let step = 5e-6;
-    let mut least = [(f64::INFINITY, 0.0); 2];
-    for k in 0..6000 {
-        bearing.0.step(step).unwrap();
-        for (least, side) in least.iter_mut().zip(["outer", "inner"]) {
-            let force = bearing.get(&format!("element[1].force.{side}"));
-            let time = f64::from(k + 1) * step;
-            let window = if side == "outer" { 3e-3..7e-3 } else { 24e-3..28e-3 };
-            if window.contains(&time) && force < least.0 {
-                *least = (force, time);
-            }
-        }
-    }
+    let course = bearing.course(["element[1].force.outer", "element[1].force.inner"], 5e-6, 6000);
+    let least = [(0, 600..1400), (1, 4800..5600)].map(|(side, window)| {
+        let at = window.min_by(|&a, &b| course[a][side].total_cmp(&course[b][side])).unwrap();
+        (course[at][side], (at + 1) as f64 * 5e-6)
+    });
     let [(outer, first), (inner, second)] = least;
     assert!((first - 5e-3).abs() < 20e-6, "deepest on the outer raceway after {first} s");
     assert!((second - first - PI / SPIN).abs() < 60e-6, "{} s apart, not {}", second - first, PI / SPIN);
@@ -67,35 +54,21 @@ fn an_elements_spall_meets_the_raceways_half_a_turn_of_its_spin_apart() {
     assert!(outer > 20.0 && inner > 20.0, "{outer} N, {inner} N");
 }
 
-/// Position of the shaft and the elements' paths and inner forces over some milliseconds.
-fn course(scene: Scene, step: f64, count: usize) -> Vec<Vec<f64>> {
-    let z = scene.bearing.element_count;
-    let mut bearing = Named::started(scene);
-    let mut all = Vec::new();
-    for _ in 0..count {
-        bearing.0.step(step).unwrap();
-        let mut row = vec![bearing.get("shaft.x"), bearing.get("shaft.y")];
-        row.extend((1..=z).map(|j| bearing.get(&format!("element[{j}].path"))));
-        all.push(row);
-    }
-    all
+/// Position of the shaft and the elements' paths over some milliseconds.
+fn course(scene: Scene, step: f64, count: usize) -> Vec<[f64; 11]> {
+    let paths: Vec<String> = (1..=9).map(|j| format!("element[{j}].path")).collect();
+    let names =
+        std::array::from_fn(|k| ["shaft.x", "shaft.y"].get(k).copied().unwrap_or_else(|| paths[k - 2].as_str()));
+    Named::started(scene).course(names, step, count)
 }
 
 #[test]
 fn turning_the_whole_scene_turns_the_result() {
     for scene in [inner(), element(0.4e-3)] {
-        let by = 1.234f64;
-        let (sin, cos) = by.sin_cos();
-        let turned = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-        let mut other = scene.clone();
-        (other.gravity, other.shaft.load) = (turned(scene.gravity), turned(scene.shaft.load));
-        other.cage.initial_angle += by;
-        // The angle on an element is counted from the element's own direction.
-        if scene.defects[0].on == DefectOn::Inner {
-            other.shaft_initial_angle += by;
-        }
+        let by = 1.234;
+        let other = turned(&scene, by);
         for (a, b) in course(scene, 1e-4, 120).iter().zip(course(other, 1e-4, 120)) {
-            let [x, y] = turned([a[0], a[1]]);
+            let [x, y] = turned_vector([a[0], a[1]], by);
             let off = (x - b[0]).abs().max((y - b[1]).abs());
             let paths = a[2..].iter().zip(&b[2..]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // The tolerance of the integration times approaches of some micrometres.
@@ -126,35 +99,21 @@ fn a_mirror_mirrors_the_result() {
 #[test]
 fn a_state_put_back_continues_with_the_same_bits() {
     for (scene, at) in [(inner(), 52), (element(1.2e-3), 49)] {
-        let mut bearing = Named::started(scene);
+        let [mut bearing, mut other] = [scene.clone(), scene].map(Named::started);
         bearing.run(1e-4, at);
-        let bytes = bearing.0.save().to_bytes();
-        let run = |bearing: &mut Named| -> Vec<u64> {
-            (0..40)
-                .flat_map(|_| {
-                    bearing.0.step(1e-4).unwrap();
-                    ["shaft.x", "shaft.y", "element[1].path", "cage.torque"].map(|name| bearing.get(name).to_bits())
-                })
-                .collect()
-        };
-        let first = run(&mut bearing);
-        let state = bearing.0.state_from_bytes(&bytes).unwrap();
-        bearing.0.restore(&state).unwrap();
-        assert_eq!(run(&mut bearing), first);
+        for _ in 0..40 {
+            let names = ["shaft.x", "shaft.y", "element[1].path", "cage.torque"];
+            bearing.goes_on_alike(&mut other, names, 1e-4, 1);
+        }
     }
 }
 
 #[test]
 fn energy_goes_nowhere_but_into_the_forced_motions_under_law_map() {
-    for (mut scene, from) in [(inner(), 4.7e-3), (element(1.2e-3), 3.6e-3)] {
-        scene.contact.law = ContactLaw::Map;
-        scene.contact.cells = Some([24, 16]);
-        scene.contact.map_accuracy = Some(1e-2);
+    for (scene, from) in [(inner(), 4.7e-3), (element(1.2e-3), 3.6e-3)] {
+        let mut scene = mapped(scene);
         (scene.contact.damping, scene.shaft.damping) = (Damping::HuntCrossley(0.0), 0.0);
-        let map = map_of(&scene, None);
-        let mut bearing =
-            Named(brinell::simulation::Simulation::with_map(scene.clone(), None, map.as_deref()).unwrap());
-        bearing.0.initialize(0.0).unwrap();
+        let mut bearing = Named::started(scene.clone());
         bearing.run(1e-4, (from / 1e-4) as usize);
         let [moved, drift] = exchanged_and_lost(&mut bearing, &scene, 1e-6, 1500);
         // Trapezoids of 1 µs over forces that swing in some 10 µs; the exchange is what makes the figure say something.
@@ -164,10 +123,7 @@ fn energy_goes_nowhere_but_into_the_forced_motions_under_law_map() {
 
 #[test]
 fn a_balance_is_found_with_elements_anywhere_over_an_inner_defect() {
-    let mut scene = inner();
-    scene.contact.law = ContactLaw::Map;
-    scene.contact.cells = Some([24, 16]);
-    scene.contact.map_accuracy = Some(1e-2);
+    let scene = mapped(inner());
     let map = map_of(&scene, None);
     let bearing = StaticBearing::with_map(&scene, None, map.as_deref()).unwrap();
     let smooth = StaticBearing::new(&Scene { defects: Vec::new(), ..scene }, None).unwrap();
@@ -194,10 +150,8 @@ fn turning_the_frame_changes_nothing_but_centrifugal_forces() {
     let mut other = scene.clone();
     (other.housing_speed, other.shaft_speed) = (Some(-scene.shaft_speed), 0.0);
     let (mut still, mut turning) = (Named::new(scene.clone()), Named::new(other));
-    let inputs =
-        ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"].map(|name| still.reference(name));
-    let about =
-        ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"].map(|name| turning.reference(name));
+    let [inputs, about] = [&still, &turning]
+        .map(|bearing| ["x", "y", "vx", "vy", "ax", "ay"].map(|name| bearing.reference(&format!("shaft.{name}"))));
     let (step, speed, eccentric) = (2e-5, -scene.shaft_speed, 14e-6);
     let motion = |time: f64| {
         let (sin, cos) = (speed * time - FRAC_PI_2).sin_cos();

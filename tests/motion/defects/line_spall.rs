@@ -20,15 +20,10 @@ impl Passage {
     fn of(name: &str, stop: f64) -> Self {
         let mut scene = shipped(name);
         scene.contact.law = ContactLaw::Hertz;
-        let mut bearing = Named::started(scene);
-        let mut passage = Self { inner: Vec::new(), outer: Vec::new(), acceleration: Vec::new() };
-        for _ in 0..(stop / STEP).round() as usize {
-            bearing.run(STEP, 1);
-            passage.inner.push(bearing.get("element[1].force.inner"));
-            passage.outer.push(bearing.get("element[1].force.outer"));
-            passage.acceleration.push(bearing.get("housing.ay"));
-        }
-        passage
+        let names = ["element[1].force.inner", "element[1].force.outer", "housing.ay"];
+        let course = Named::started(scene).course(names, STEP, (stop / STEP).round() as usize);
+        let [inner, outer, acceleration] = [0, 1, 2].map(|k| course.iter().map(|row| row[k]).collect());
+        Self { inner, outer, acceleration }
     }
 
     /// First time after `from` at which a force is (or is not) there, both counted from the entry (s).

@@ -13,23 +13,22 @@ fn bearing(defects: Vec<Defect>) -> Scene {
     Scene { defects, ..held(Defect::outer(0.0, spall(1e-3, 1e-4))) }
 }
 
+/// A spall of an element that faces the outer raceway at the start of its turn.
+fn on(element: usize, length: f64, depth: f64) -> Defect {
+    Defect { on: DefectOn::Element { element, tilt: 0.0 }, ..Defect::outer(0.0, spall(length, depth)) }
+}
+
 /// Angle (rad) of an arc (m) of the outer raceway.
 fn arc(length: f64) -> f64 {
     length / bearing(Vec::new()).bearing.outer_raceway_radius()
 }
 
 /// Shaft, paths and outer forces over some milliseconds.
-fn course(mut bearing: Named, count: usize) -> Vec<Vec<f64>> {
-    let row = |bearing: &mut Named| {
-        bearing.0.step(1e-4).unwrap();
-        let mut row = vec![bearing.get("shaft.x"), bearing.get("shaft.y")];
-        for j in 1..=9 {
-            row.push(bearing.get(&format!("element[{j}].path")));
-            row.push(bearing.get(&format!("element[{j}].force.outer")));
-        }
-        row
-    };
-    (0..count).map(|_| row(&mut bearing)).collect()
+fn course(mut bearing: Named, count: usize) -> Vec<[f64; 20]> {
+    let of_elements = (1..=9).flat_map(|j| ["path", "force.outer"].map(|what| format!("element[{j}].{what}")));
+    let names: Vec<String> = ["shaft.x", "shaft.y"].map(str::to_owned).into_iter().chain(of_elements).collect();
+    let names: [&str; 20] = std::array::from_fn(|k| &*names[k]);
+    bearing.course(names, 1e-4, count)
 }
 
 #[test]
@@ -70,12 +69,10 @@ fn defects_close_together_are_one_profile() {
     let traced = bearing(vec![Defect::outer(-FRAC_PI_2, DefectShape::Profile("ridge.csv".to_owned()))]);
     let mut one = Named(Simulation::new(traced, Some(text.as_str())).unwrap());
     one.0.initialize(0.0).unwrap();
-    let start = |turn: f64| {
-        let mut scene = bearing(spalls.to_vec());
-        scene.defects.rotate_left(turn as usize);
-        Named::started(scene)
-    };
-    let (one, both, swapped) = (course(one, 150), course(start(0.0), 150), course(start(1.0), 150));
+    let [a, b] = spalls;
+    let [one, both, swapped] =
+        [one, Named::started(bearing(vec![a.clone(), b.clone()])), Named::started(bearing(vec![b, a]))]
+            .map(|bearing| course(bearing, 150));
     // In whatever order they are named.
     assert_eq!(both, swapped);
     let mut most = 0.0f64;
@@ -118,7 +115,7 @@ fn the_order_in_which_defects_are_named_changes_no_bit() {
     let defects = vec![
         Defect::outer(-FRAC_PI_2, spall(0.8e-3, 40e-6)),
         Defect::inner(-1.2, spall(0.6e-3, 40e-6)),
-        Defect { on: DefectOn::Element { element: 3, tilt: 0.0 }, angle: 0.5, shape: spall(0.5e-3, 30e-6) },
+        Defect { angle: 0.5, ..on(3, 0.5e-3, 30e-6) },
         Defect::outer(1.0, spall(0.4e-3, 20e-6)),
     ];
     let mut turned = defects.clone();
@@ -170,7 +167,7 @@ fn overlaps_and_topographies_too_close_are_refused_with_their_numbers() {
     assert!(hertz(0.5e-6).is_err());
     assert_eq!(hertz(2e-6), Ok(()));
     // Elements and rings are bodies of their own.
-    let on = |element| Defect { on: DefectOn::Element { element, tilt: 0.0 }, ..Defect::outer(0.0, spall(1e-3, 4e-5)) };
+    let on = |element| on(element, 1e-3, 4e-5);
     let apart = vec![on(0), on(1), Defect::inner(0.0, spall(1e-3, 4e-5)), Defect::outer(0.0, spall(1e-3, 4e-5))];
     assert_eq!(refusal(apart, ContactLaw::Hertz, None), Ok(()));
     assert!(refusal(vec![on(1), on(1)], ContactLaw::Hertz, None).unwrap_err().contains("numbers 1 and 2"));
@@ -184,10 +181,7 @@ fn overlaps_and_topographies_too_close_are_refused_with_their_numbers() {
 
 #[test]
 fn bodies_with_the_same_profile_share_their_contact_maps() {
-    let on = |element, length| Defect {
-        on: DefectOn::Element { element, tilt: 0.0 },
-        ..Defect::outer(0.0, spall(length, 2e-6))
-    };
+    let on = |element, length| on(element, length, 2e-6);
     let maps = |defects| {
         let mut scene = bearing(defects);
         scene.contact.law = ContactLaw::Map;

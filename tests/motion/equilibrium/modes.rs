@@ -127,11 +127,11 @@ fn compare_with_decay(scene: &Scene, cage_angle: f64) -> usize {
         let expected = mode.eigenvalues[0];
         let size = expected[0].hypot(expected[1]);
         let wrong = [0, 1].map(|i| (found[i] - expected[i]).abs());
-        println!("{} {:?} {:.1} Hz: {expected:?}, decay {found:?}", scene.name, mode.kind, size / TAU);
         // Beside the tolerance, a millionth of the eigenvalue for the integration's own error: it shows where the
         // damping ratio is 1e-5, of elements that rest under their weight.
-        assert!(wrong[0] < 1e-3 * expected[0].abs() + 1e-6 * size, "{found:?} against {expected:?}");
-        assert!(wrong[1] <= 1e-3 * expected[1], "{found:?} against {expected:?}");
+        let allowed = [1e-3 * expected[0].abs() + 1e-6 * size, 1e-3 * expected[1]];
+        let is_right = wrong[0] < allowed[0] && wrong[1] <= allowed[1];
+        assert!(is_right, "{}, {:?}: {found:?} against {expected:?}", scene.name, mode.kind);
     }
     modes.modes.len()
 }
@@ -172,7 +172,6 @@ fn with_the_published_masses_the_rings_ring_as_the_validation_says() {
     // The extended one of 55.8 degrees: with two elements in it, 20 degrees on either side of its middle, and with one.
     let extended = shipped_as_it_is("er16k-tb2");
     let extended = [rings_mode(&extended, -110.0), rings_mode(&extended, -90.0)];
-    println!("line {found:?}, extended {extended:?}");
     // Ringing that was simulated and read off a spectrum, in whole hertz, while the elements moved on: 0.2 %.
     for (found, expected) in found.into_iter().chain(extended).zip([799.0, 999.0, 566.0, 801.0]) {
         agree(found, expected, 3e-3);
@@ -219,7 +218,6 @@ fn heavy_rings_are_masses_on_the_static_stiffness() {
         let matrix: Vec<Vec<f64>> = (0..4).map(|i| (0..4).map(|k| entry(i, k)).collect()).collect();
         let squares = eigenvalues(&matrix).unwrap().iter().map(|square| square.re).collect();
         let two = distance(&both, angle, squares);
-        println!("{heavier} times heavier: one ring {one:.2e}, two rings {two:.2e} from masses on springs");
         errors.push([one, two]);
     }
     // What the elements' 2 g add to rings of kilograms, in proportion; beside it 1e-8 by rounding of the balance.

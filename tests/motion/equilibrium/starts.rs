@@ -1,37 +1,28 @@
 //! The static equilibrium from which a run starts, where contacts are hard to balance.
 
-use crate::support::{Named, shipped};
-use brinell::scene::{Damping, DefectOn, Roller, RollerProfile, RollingElement, Scene};
-use brinell::simulation::{Simulation, SimulationError};
+use crate::support::{Named, shipped, straight};
+use brinell::scene::{Damping, DefectOn, Scene};
+use brinell::simulation::SimulationError;
 use std::f64::consts::TAU;
 
 /// A shipped scene with straight rollers, damped as whole bearings are where nothing else is known.
 fn straight_rollers(name: &str, speed_hz: f64, cage_angle: f64) -> Scene {
     let mut scene = shipped(name);
-    let profile = RollerProfile::Straight;
-    scene.bearing.element =
-        RollingElement::CylindricalRoller(Roller { length: 9e-3, profile, laminae: Roller::LAMINAE });
+    scene.bearing.element = straight(9e-3);
     scene.contact.damping = Damping::Proportional(1.25e-5);
     scene.shaft_speed = speed_hz * TAU;
     scene.cage.initial_angle = cage_angle;
     scene
 }
 
-fn started(scene: Scene) -> Result<Named, SimulationError> {
-    let mut bearing = Simulation::new(scene, None).unwrap();
-    bearing.initialize(0.0).map(|()| Named(bearing))
-}
-
 /// Starts a bearing and runs it for 2 ms. Gives what its contacts lack of the load at the start (N).
 fn lacking(scene: Scene) -> Result<f64, SimulationError> {
     let load = scene.shaft.load;
-    let mut bearing = started(scene)?;
-    let lacking = [("shaft.force.x", load[0]), ("shaft.force.y", load[1])]
-        .map(|(name, load)| (bearing.get(name) + load).abs())
-        .into_iter()
-        .fold(0.0, f64::max);
+    let mut bearing = Named::new(scene);
+    bearing.0.initialize(0.0)?;
+    let [x, y] = bearing.all(["shaft.force.x", "shaft.force.y"]);
     bearing.run(1e-4, 20);
-    Ok(lacking)
+    Ok((x + load[0]).abs().max((y + load[1]).abs()))
 }
 
 /// Cage angles at which these start not, or with less of the load than a path between two numbers can cost.
@@ -99,11 +90,9 @@ fn a_shaft_finds_its_place_between_three_balls_of_which_one_is_worn() {
         depth_um = 15.329727035667183
         edge_slope_deg = 16.53441229791677
     "#;
-    let mut bearing = Simulation::new(brinell_scene_file::from_toml(scene).unwrap(), None).unwrap();
-    let place = ["housing.x", "housing.y"].map(|name| bearing.reference(name).unwrap());
-    bearing.set_reals(&place, &[1.3336916224803659e-6, 2.2805856387330655e-6]).unwrap();
-    bearing.initialize(0.0).unwrap();
-    let mut bearing = Named(bearing);
+    let scene = brinell_scene_file::from_toml(scene).unwrap();
+    let place = [("housing.x", 1.3336916224803659e-6), ("housing.y", 2.2805856387330655e-6)];
+    let mut bearing = Named::started_with(scene, &place);
     for (name, load) in [("shaft.force.x", -21.04788467050047), ("shaft.force.y", -12.673127534101988)] {
         // What a search leaves, a hundred times.
         let force = bearing.get(name);

@@ -1,7 +1,8 @@
 //! Static stiffness, load distribution and critical load.
 
+use crate::support::draw::Draw;
 use crate::support::{profile_of, shipped};
-use brinell::scene::{Bearing, DefectOn, DefectShape, Scene};
+use brinell::scene::{Bearing, ContactLaw, DefectOn, DefectShape, Scene};
 use brinell_analysis::statics::{
     Balance, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
 };
@@ -257,11 +258,8 @@ fn what_cannot_be_asked_is_refused() {
 
 /// Spalled bearings of three to six elements.
 fn sparse(seed: u64) -> Scene {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03;
-    let mut draw = |low: f64, high: f64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((state >> 11) as f64 / (1u64 << 53) as f64)
-    };
+    let mut draw = Draw::new(seed);
+    let mut draw = |low, high| draw.within(low, high);
     let count = draw(3.0, 7.0) as usize;
     let diameter = draw(4e-3, 12e-3);
     let pitch = diameter * draw(2.6, 6.0);
@@ -271,9 +269,7 @@ fn sparse(seed: u64) -> Scene {
     let outer = 0.5 * (pitch + diameter);
     let length = outer * draw(2.0, 60.0).to_radians();
     let builder = Scene::builder(bearing).shaft_load([0.0, -draw(50.0, 5000.0)]).shaft_speed(60.0);
-    let mut scene = builder.spall(angle, length, draw(5e-6, 200e-6)).build().unwrap();
-    scene.contact.law = brinell::scene::ContactLaw::Hertz;
-    scene
+    builder.spall(angle, length, draw(5e-6, 200e-6)).law(ContactLaw::Hertz).build().unwrap()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What is changed between runs: a bearing with a parameter set moves as one that was described so.
 
-use crate::support::shipped;
+use crate::support::{Named, shipped};
 use brinell::scene::{ContactLaw, DefectOn, DefectShape, DrawnDiameters, Recorder, RecorderFilter, Scene};
 use brinell::simulation::interface::table::Kind;
 use brinell::simulation::{Simulation, SimulationError};
@@ -24,6 +24,20 @@ fn moved(mut simulation: Simulation) -> Vec<(String, f64)> {
         .collect()
 }
 
+/// A bearing with reals and integers set moves as it was described so, and otherwise than without them.
+fn moves_as_described(scene: &Scene, reals: &[(&str, f64)], integers: &[(&str, i32)], described: Scene) {
+    let mut set = Simulation::new(scene.clone(), None).unwrap();
+    reals.iter().for_each(|(name, value)| set.set(name, *value).unwrap());
+    for (name, value) in integers {
+        set.set_integers(&[set.reference(name).unwrap()], &[*value]).unwrap();
+    }
+    let (set, described) = (moved(set), moved(Simulation::new(described, None).unwrap()));
+    assert_eq!(set, described);
+    let is_set = |name: &str| reals.iter().any(|(set, _)| *set == name);
+    let others = |rows: Vec<(String, f64)>| rows.into_iter().filter(|(name, _)| !is_set(name)).collect::<Vec<_>>();
+    assert_ne!(others(set), others(moved(Simulation::new(scene.clone(), None).unwrap())), "it changes nothing");
+}
+
 fn spalled(law: ContactLaw) -> Scene {
     let mut scene = shipped("er16k-tb1");
     scene.contact.law = law;
@@ -40,12 +54,8 @@ fn a_spall_whose_sizes_are_set_is_one_that_was_described_with_them() {
         scene.contact.flank_map = flank_map;
         // Long enough for a map of its flanks.
         let sizes = [if flank_map { 4.5e-3 } else { 3e-3 }, 25e-6];
-        let mut set = Simulation::new(scene.clone(), None).unwrap();
-        set.set("defect.length", sizes[0]).unwrap();
-        set.set("defect.depth", sizes[1]).unwrap();
-        let (set, described) = (moved(set), moved(Simulation::new(sized(&scene, sizes), None).unwrap()));
-        assert_eq!(set, described, "{law:?}");
-        assert_ne!(set, moved(Simulation::new(scene, None).unwrap()), "{law:?}: sizes change nothing");
+        let set = [("defect.length", sizes[0]), ("defect.depth", sizes[1])];
+        moves_as_described(&scene, &set, &[], sized(&scene, sizes));
     }
 }
 
@@ -97,22 +107,18 @@ fn under_law_map_a_spalls_size_has_no_derivative() {
 
 #[test]
 fn a_cage_with_another_seed_is_one_that_was_drawn_with_it() {
-    let file = brinell_tests::root().join("scenes/6205-irregular-cage.toml");
-    let text = std::fs::read_to_string(file).unwrap();
+    let text = include_str!("../../../scenes/6205-irregular-cage.toml");
     let with_seed = |seed: &str| {
         let line = text.lines().find(|line| line.starts_with("seed")).unwrap();
         brinell_scene_file::from_toml(&text.replace(line, &format!("seed = {seed}"))).unwrap()
     };
-    let mut set = Simulation::new(with_seed("5"), None).unwrap();
-    let seed = set.reference("cage.seed").unwrap();
-    set.set_integers(&[seed], &[77]).unwrap();
-    let (set, drawn) = (moved(set), moved(Simulation::new(with_seed("77"), None).unwrap()));
-    assert_eq!(set, drawn);
-    assert_ne!(set, moved(Simulation::new(with_seed("5"), None).unwrap()));
+    moves_as_described(&with_seed("5"), &[], &[("cage.seed", 77)], with_seed("77"));
     // FMI 2.0 has no integer for it.
     let large = Simulation::new(with_seed("3000000000"), None).unwrap();
     assert!(large.reference("cage.seed").is_err());
-    let error = Simulation::new(with_seed("5"), None).unwrap().set_integers(&[seed], &[-1]).unwrap_err();
+    let mut bearing = Simulation::new(with_seed("5"), None).unwrap();
+    let seed = bearing.reference("cage.seed").unwrap();
+    let error = bearing.set_integers(&[seed], &[-1]).unwrap_err();
     assert_eq!(error.to_string(), "variable cage.seed: -1 is outside 0 … 2.147483647e9");
 }
 
@@ -121,19 +127,16 @@ fn elements_with_another_seed_are_those_that_were_drawn_with_it() {
     let with_seed = |seed: u64| {
         let mut scene = shipped("6205-healthy");
         scene.bearing.draw_diameters(DrawnDiameters { rms: 0.3e-6, seed });
-        Simulation::new(scene, None).unwrap()
+        scene
     };
-    let mut set = with_seed(5);
-    let seed = set.reference("bearing.element_diameter_seed").unwrap();
+    moves_as_described(&with_seed(5), &[], &[("bearing.element_diameter_seed", 77)], with_seed(77));
+    let reference = |scene: Scene| {
+        let bearing = Simulation::new(scene, None).unwrap();
+        bearing.reference("bearing.element_diameter_seed").map(|seed| bearing.table().len() - seed as usize)
+    };
     // Behind all others, which keep their references.
-    assert_eq!(seed as usize, set.table().len() - 1);
-    set.set_integers(&[seed], &[77]).unwrap();
-    let (set, drawn) = (moved(set), moved(with_seed(77)));
-    assert_eq!(set, drawn);
-    assert_ne!(set, moved(with_seed(5)));
-    assert!(with_seed(1 << 31).reference("bearing.element_diameter_seed").is_err());
-    let equal = Simulation::new(shipped("6205-healthy"), None).unwrap();
-    assert!(equal.reference("bearing.element_diameter_seed").is_err());
+    assert_eq!(reference(with_seed(5)).unwrap(), 1);
+    assert!(reference(with_seed(1 << 31)).is_err() && reference(shipped("6205-healthy")).is_err());
 }
 
 #[test]
@@ -141,12 +144,7 @@ fn oil_of_another_viscosity_is_one_that_was_described_with_it() {
     let scene = shipped("er16k-tb1-oil");
     let mut thick = scene.clone();
     thick.film.as_mut().unwrap().viscosity = 0.11;
-    let mut set = Simulation::new(scene.clone(), None).unwrap();
-    set.set("film.viscosity", 0.11).unwrap();
-    let but_viscosity = |rows: Vec<(String, f64)>| rows.into_iter().filter(|(name, _)| name != "film.viscosity");
-    let (set, described) = (moved(set), moved(Simulation::new(thick, None).unwrap()));
-    assert_eq!(set, described);
-    assert!(but_viscosity(set).ne(but_viscosity(moved(Simulation::new(scene, None).unwrap()))));
+    moves_as_described(&scene, &[("film.viscosity", 0.11)], &[], thick);
 }
 
 #[test]
@@ -169,19 +167,25 @@ fn a_sensor_with_another_resonance_has_its_mass_and_damping_ratio() {
     assert!(differs);
 }
 
+/// A healthy bearing with a recorder of a rate (Hz) that is described so and then perhaps set.
+fn recorded(filter: RecorderFilter, described: f64, set: Option<f64>) -> Named {
+    let recorder = Some(Recorder { rate: described, filter });
+    let mut bearing = Named::new(Scene { recorder, ..shipped("6205-healthy") });
+    bearing.0.record_into("somewhere");
+    if let Some(rate) = set {
+        bearing.set("recorder.rate", rate);
+    }
+    bearing.0.initialize(0.0).unwrap();
+    bearing
+}
+
 #[test]
 fn a_recorder_with_another_rate_has_the_rows_of_one_that_was_described_with_it() {
     for filter in [RecorderFilter::LinearPhase, RecorderFilter::None] {
         let recording = |described: f64, set: Option<f64>| {
-            let recorder = Some(Recorder { rate: described, filter });
-            let mut bearing = Simulation::new(Scene { recorder, ..shipped("6205-healthy") }, None).unwrap();
-            bearing.record_into("somewhere");
-            if let Some(rate) = set {
-                bearing.set("recorder.rate", rate).unwrap();
-            }
-            bearing.initialize(0.0).unwrap();
-            bearing.step(10e-3).unwrap();
-            bearing.recorder().unwrap().samples().values.to_vec()
+            let mut bearing = recorded(filter, described, set);
+            bearing.run(10e-3, 1);
+            bearing.0.recorder().unwrap().samples().values.to_vec()
         };
         let [set, described] = [recording(51_200.0, Some(12_800.0)), recording(12_800.0, None)];
         assert!(set == described && !set.is_empty(), "{filter:?}: {} and {} numbers", set.len(), described.len());
@@ -192,14 +196,10 @@ fn a_recorder_with_another_rate_has_the_rows_of_one_that_was_described_with_it()
 #[test]
 fn bytes_of_a_state_are_judged_by_the_rate_that_is_in_them() {
     let started = |rate: f64| {
-        let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
-        let mut bearing = Simulation::new(Scene { recorder, ..shipped("6205-healthy") }, None).unwrap();
-        bearing.record_into("somewhere");
-        bearing.set("recorder.rate", rate).unwrap();
-        bearing.initialize(0.0).unwrap();
+        let mut bearing = recorded(RecorderFilter::None, 51_200.0, Some(rate));
         // The next sample of the slow one is due in more than two intervals of the fast one.
-        bearing.step(5.01e-3).unwrap();
-        bearing
+        bearing.run(5.01e-3, 1);
+        bearing.0
     };
     let (slow, fast) = (started(12_800.0), started(51_200.0));
     assert!(fast.state_from_bytes(&slow.save().to_bytes()).is_ok());
@@ -207,15 +207,10 @@ fn bytes_of_a_state_are_judged_by_the_rate_that_is_in_them() {
 
 #[test]
 fn a_state_taken_at_another_rate_brings_its_rate_along() {
-    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::LinearPhase });
-    let scene = Scene { recorder, ..shipped("6205-healthy") };
     let started = |rate: f64| {
-        let mut bearing = Simulation::new(scene.clone(), None).unwrap();
-        bearing.record_into("somewhere");
-        bearing.set("recorder.rate", rate).unwrap();
-        bearing.initialize(0.0).unwrap();
-        bearing.step(5e-3).unwrap();
-        bearing
+        let mut bearing = recorded(RecorderFilter::LinearPhase, 51_200.0, Some(rate));
+        bearing.run(5e-3, 1);
+        bearing.0
     };
     let (mut slow, mut fast) = (started(12_800.0), started(51_200.0));
     fast.restore(&slow.save()).unwrap();

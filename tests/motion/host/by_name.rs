@@ -1,8 +1,16 @@
 //! A simulation as a Rust program uses it: variables by name, and its start.
 
+use crate::support::differences::reals;
 use crate::support::shipped;
 use brinell::scene::{Recorder, RecorderFilter, Scene};
 use brinell::simulation::Simulation;
+use brinell::simulation::interface::table::Kind;
+
+/// A bearing with a spall and a recorder.
+fn recording() -> Simulation {
+    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
+    Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap()
+}
 
 fn simulation(scene: &str) -> Simulation {
     Simulation::new(shipped(scene), None).unwrap()
@@ -10,8 +18,7 @@ fn simulation(scene: &str) -> Simulation {
 
 #[test]
 fn a_variable_that_is_not_real_is_told_with_the_method_to_use() {
-    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
-    let mut bearing = Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap();
+    let mut bearing = recording();
     for (name, told) in [
         ("solver.steps", "variable solver.steps is of type Integer: use counts, with its reference"),
         ("contact.law", "variable contact.law is of type Enumeration: use integers, with its reference"),
@@ -54,19 +61,11 @@ fn a_start_that_is_no_instant_is_refused_and_changes_nothing() {
 
 #[test]
 fn a_second_start_is_as_the_first_but_for_its_inputs() {
-    let names = |bearing: &Simulation| -> Vec<u32> {
-        let reals = bearing
-            .table()
-            .iter()
-            .filter(|row| matches!(row.kind, brinell::simulation::interface::table::Kind::Real { .. }));
-        reals.map(|row| row.reference).collect()
-    };
     for scene in ["er16k-tb1", "6205-hosted"] {
         let values = |bearing: &mut Simulation| {
-            let references = names(bearing);
-            let mut values = vec![0.0; references.len()];
-            bearing.reals(&references, &mut values).unwrap();
-            values.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
+            let rows = bearing.table().iter().filter(|row| matches!(row.kind, Kind::Real { .. }));
+            let references: Vec<u32> = rows.map(|row| row.reference).collect();
+            reals(bearing, &references).into_iter().map(f64::to_bits).collect::<Vec<u64>>()
         };
         let (mut once, mut twice) = (simulation(scene), simulation(scene));
         twice.initialize(0.0).unwrap();
@@ -88,8 +87,7 @@ fn a_second_start_is_as_the_first_but_for_its_inputs() {
 
 #[test]
 fn lists_of_unequal_lengths_are_refused_and_nothing_is_set_or_read() {
-    let recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::None });
-    let mut bearing = Simulation::new(Scene { recorder, ..shipped("er16k-tb1") }, None).unwrap();
+    let mut bearing = recording();
     let [x, y, law, folder, steps] = ["shaft.load.x", "shaft.load.y", "contact.law", "recorder.folder", "solver.steps"]
         .map(|name| bearing.reference(name).unwrap());
     let before = [bearing.get("shaft.load.x").unwrap(), bearing.get("shaft.load.y").unwrap()];

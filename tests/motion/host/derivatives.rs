@@ -1,9 +1,9 @@
 //! Derivatives of outputs: at the start by all that the start depends on, and by time where defects inside are met.
 
-use crate::support::{map_of, profiles_of, shipped, shipped_as_it_is};
+use crate::support::differences::{by_input, reals, references};
+use crate::support::{Named, shipped, shipped_as_it_is, straight};
 use brinell::scene::{
-    Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, DrawnDiameters, Ring, Roller, RollerProfile,
-    RollingElement, Scene, Waviness, WavyBody,
+    Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, DrawnDiameters, Ring, Scene, Waviness, WavyBody,
 };
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
@@ -37,15 +37,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 fn simulation(scene: Scene) -> Simulation {
-    let profiles = profiles_of(&scene);
-    let map = map_of(&scene, profiles.iter().map(|text| &text[..]));
-    Simulation::with_map(scene, profiles.iter().map(|text| &text[..]), map.as_deref()).unwrap()
-}
-
-fn reals(simulation: &mut Simulation, references: &[u32]) -> Vec<f64> {
-    let mut values = vec![f64::NAN; references.len()];
-    simulation.reals(references, &mut values).unwrap();
-    values
+    Named::new(scene).0
 }
 
 /// How far a known is moved: other ways than those of the derivatives that are differences themselves.
@@ -127,15 +119,8 @@ fn elements_in_a_cage_that_wanders_start_at_their_own_speeds_and_so_do_derivativ
     let irregularity = scene.cage.irregularity.as_mut().unwrap();
     (irregularity.wander, irregularity.jitter) = (0.1, 0.0);
     let mut simulation = simulation(scene);
-    let [speed, y, force] =
-        ["shaft.speed", "shaft.y", "element[4].force.outer"].map(|name| simulation.reference(name).unwrap());
-    let known = simulation.table()[speed as usize].clone();
-    let mut given = [f64::NAN; 2];
-    simulation.directional_derivative(&[y, force], &[speed], &[1.0], &mut given).unwrap();
-    let found = quotients(&mut simulation, &[y, force], &known);
-    for (given, found) in given.into_iter().zip(found) {
-        // As in the test of all knowns.
-        assert!((given - found).abs() < 1e-3 * given.abs(), "{given} {found}");
+    for slope in by_input(&mut simulation, &["shaft.y", "element[4].force.outer"], "shaft.speed", 0.05) {
+        assert!(slope.miss() < 1e-3 * slope.given.abs(), "{slope:?}");
     }
 }
 
@@ -183,7 +168,7 @@ fn the_stiffness_beside_an_edge_inside_is_the_slope_of_the_force() {
 #[test]
 fn the_stiffness_over_a_defect_inside_changes_with_time_as_its_derivative_says() {
     let mut simulation = simulation(shipped_as_it_is("nu205-inner"));
-    let references = STIFFNESSES.map(|name| simulation.reference(name).unwrap());
+    let references = references(&simulation, &STIFFNESSES);
     simulation.initialize(0.0).unwrap();
     let mut compared = 0;
     for _ in 0..160 {
@@ -226,7 +211,7 @@ fn weightless(radial_clearance: f64, outer_compliance: f64) -> Scene {
 }
 
 /// Presses the inner ring down until the ball at the bottom is touched, and by this much (m) further.
-fn press(simulation: &mut Simulation, x: f64, further: f64) -> f64 {
+fn press(simulation: &mut Simulation, x: f64, further: f64) {
     let [x_of, y_of, force] =
         ["shaft.x", "shaft.y", "element[1].force.inner"].map(|name| simulation.reference(name).unwrap());
     let (mut deep, mut open) = (-100e-6, 0.0);
@@ -236,7 +221,6 @@ fn press(simulation: &mut Simulation, x: f64, further: f64) -> f64 {
         if reals(simulation, &[force])[0] > 0.0 { deep = middle } else { open = middle }
     }
     simulation.set_reals(&[y_of], &[deep - further]).unwrap();
-    deep - further
 }
 
 #[test]
@@ -256,28 +240,16 @@ fn the_stiffness_of_contacts_pressed_in_by_less_than_a_nanometre_changes_as_its_
         ("edge inside", spall(DefectOn::Inner)),
         ("edge outside", spall(DefectOn::Outer)),
     ];
-    let mut failed = Vec::new();
     for (what, scene) in scenes {
         let mut simulation = simulation(scene);
         let further = 6e-10;
-        let y = press(&mut simulation, 0.0, further);
-        let [y_of, stiffness] = ["shaft.y", STIFFNESSES[3]].map(|name| simulation.reference(name).unwrap());
-        let mut given = [f64::NAN];
-        simulation.directional_derivative(&[stiffness], &[y_of], &[1.0], &mut given).unwrap();
-        let step = 3e-3 * further;
-        let [below, above] = [-step, step].map(|step| {
-            simulation.set_reals(&[y_of], &[y + step]).unwrap();
-            reals(&mut simulation, &[stiffness])[0]
-        });
-        let expected = (above - below) / (2.0 * step);
+        press(&mut simulation, 0.0, further);
+        let slope = by_input(&mut simulation, &STIFFNESSES[3..], "shaft.y", 3e-3 * further)[0];
         // The difference of the derivative over a hundredth of the approach leaves out 3e-5, what is near the edge up
         // to ten times that, as its tangent is a difference itself.
-        if (given[0] - expected).abs() > 3e-4 * expected.abs() {
-            failed.push(format!("{what}: {} given, {expected} found", given[0]));
-        }
-        assert!(expected < 0.0, "{what}: deeper is stiffer, {expected}");
+        assert!(slope.miss() <= 3e-4 * slope.found.abs(), "{what}: {slope:?}");
+        assert!(slope.found < 0.0, "{what}: deeper is stiffer, {slope:?}");
     }
-    assert!(failed.is_empty(), "{failed:#?}");
 }
 
 #[test]
@@ -285,26 +257,15 @@ fn weights_of_balls_in_a_clearance_of_a_millimetre_follow_it_as_their_derivative
     let bearing = Bearing { radial_clearance: 1.1e-3, ..Bearing::steel_balls(9, 7.94e-3, 39.04e-3) };
     let scene = Scene::builder(bearing).shaft(Ring::hosted()).housing(Ring::fixed()).law(ContactLaw::Hertz);
     let mut simulation = simulation(scene.gravity([0.0, -9.81]).build().unwrap());
-    let unknowns: Vec<u32> =
-        (1..=9).map(|j| simulation.reference(&format!("element[{j}].force.inner")).unwrap()).collect();
-    let clearance = simulation.reference("bearing.radial_clearance").unwrap();
     simulation.set("shaft.x", 5e-4).unwrap();
     simulation.set("shaft.y", 3e-4).unwrap();
+    let forces: Vec<String> = (1..=9).map(|j| format!("element[{j}].force.inner")).collect();
+    let forces: Vec<&str> = forces.iter().map(String::as_str).collect();
     let mut wrong = 0.0f64;
     for k in 0..12 {
         simulation.set("cage.initial_angle", 0.05 * f64::from(k)).unwrap();
-        let mut given = [f64::NAN; 9];
-        simulation.directional_derivative(&unknowns, &[clearance], &[1.0], &mut given).unwrap();
-        let (at, step) = (1.1e-3, 1e-7);
-        let [below, above] = [-step, step].map(|step| {
-            simulation.set_reals(&[clearance], &[at + step]).unwrap();
-            reals(&mut simulation, &unknowns)
-        });
-        simulation.set_reals(&[clearance], &[at]).unwrap();
-        for i in 0..9 {
-            let expected = (above[i] - below[i]) / (2.0 * step);
-            wrong = wrong.max((given[i] - expected).abs());
-        }
+        let slopes = by_input(&mut simulation, &forces, "bearing.radial_clearance", 1e-7);
+        wrong = slopes.iter().fold(wrong, |wrong, slope| wrong.max(slope.miss()));
     }
     // Positions of a millimetre are known to 2e-19 m, which 2e6 N/m make 4e-13 N. Of four differences three times as
     // much is left over a hundredth of the 5 nm by which the least ball is pressed in: 0.03 N/m, twice.
@@ -316,8 +277,7 @@ fn weights_of_balls_in_a_clearance_of_a_millimetre_follow_it_as_their_derivative
 #[test]
 fn straight_rollers_that_rest_on_the_inner_ring_follow_it_at_every_cage_angle() {
     let mut scene = shipped("nu205-healthy");
-    let roller = Roller { length: 9e-3, profile: RollerProfile::Straight, laminae: Roller::LAMINAE };
-    scene.bearing.element = RollingElement::CylindricalRoller(roller);
+    scene.bearing.element = straight(9e-3);
     scene.contact.damping = Damping::Proportional(1.25e-5);
     (scene.shaft, scene.housing) = (Ring::hosted(), Ring::fixed());
     (scene.shaft_speed, scene.recorder) = (std::f64::consts::TAU, None);

@@ -1,7 +1,8 @@
 //! The oil film: what it takes off the clearance, what it resists with before contacts begin, and that it follows the
 //! speed.
 
-use crate::support::{Named, shipped};
+use crate::support::differences::by_input;
+use crate::support::{Named, runge_kutta, shipped};
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::parameters::{Cells, Excitation, Model, Quadratic, film};
 use brinell::geometry::film_thickness::{LubricatedContact, rolling_speed_ratio, speed_factor};
@@ -71,21 +72,15 @@ fn a_loose_element_stops_where_the_stopping_law_says() {
     let (model, excitation) = alone(TAU * 10.0);
     let [_, (c, h)] = films(TAU * 10.0);
     for (start, speed) in [(4e-6, 0.01), (2e-6, 0.05)] {
-        let (mut u, mut w) = (-start, speed);
-        // Classical Runge–Kutta, a hundredth of the gap's own time m g/c and less.
-        let step = 2e-8;
+        let mut way = vec![-start, speed];
+        // A hundredth of the gap's own time m g/c and less.
         for _ in 0..60_000 {
-            let rate = |u: f64, w: f64| (w, at(&model, &excitation, u, w)[2]);
-            let a = rate(u, w);
-            let b = rate(u + 0.5 * step * a.0, w + 0.5 * step * a.1);
-            let d = rate(u + 0.5 * step * b.0, w + 0.5 * step * b.1);
-            let e = rate(u + step * d.0, w + step * d.1);
-            u += step / 6.0 * (a.0 + 2.0 * (b.0 + d.0) + e.0);
-            w += step / 6.0 * (a.1 + 2.0 * (b.1 + d.1) + e.1);
+            way = runge_kutta(&way, 2e-8, |way| vec![way[1], at(&model, &excitation, way[0], way[1])[2]]);
         }
         let expected = (start + h) * (-model.element_mass * speed / c).exp();
         // It comes to rest exponentially; 1.2 ms are 40 times of its slowest.
-        assert!((h - u - expected).abs() < 1e-6 * expected, "{start} {speed}: {} {expected}", h - u);
+        let left = h - way[0];
+        assert!((left - expected).abs() < 1e-6 * expected, "{start} {speed}: {left} {expected}");
     }
 }
 
@@ -106,8 +101,7 @@ fn films_take_their_thickness_off_the_clearance_where_rings_turn_and_nothing_whe
     let mut scene = oiled();
     (scene.defects, scene.sensors) = (Vec::new(), Vec::new());
     let start = |scene: &Scene| {
-        let mut bearing = Named::new(scene.clone());
-        bearing.0.initialize(0.0).unwrap();
+        let mut bearing = Named::started(scene.clone());
         bearing.get("shaft.y") - bearing.get("housing.y")
     };
     let oiled_at = |speed: f64| start(&Scene { shaft_speed: speed, ..scene.clone() });
@@ -124,71 +118,41 @@ fn films_take_their_thickness_off_the_clearance_where_rings_turn_and_nothing_whe
     assert!((rise - expected).abs() < 2e-3 * expected, "{rise} {expected}");
 }
 
-/// All outputs' bits after each of some steps, the speed changing between them.
-fn bits(bearing: &mut Simulation, from: u32, to: u32) -> Vec<u64> {
-    let names = ["shaft.y", "element[1].path", "element[4].force.outer", "sensor.acceleration"];
-    let mut bits = Vec::new();
-    for k in from..to {
-        bearing.set("shaft.speed", TAU * (10.0 + f64::from(k))).unwrap();
-        bearing.step(1e-4).unwrap();
-        bits.extend(names.map(|name| bearing.get(name).unwrap().to_bits()));
+/// A bearing after so many steps (s) in which the speed (Hz) changes, from this on.
+fn after(steps: u32, from: f64) -> Named {
+    let mut bearing = Named::started(oiled());
+    for k in 0..steps {
+        bearing.set("shaft.speed", TAU * (from + f64::from(k)));
+        bearing.run(1e-4, 1);
     }
-    bits
+    bearing
 }
 
 #[test]
 fn a_saved_state_and_a_repeated_step_have_the_same_bits() {
-    let mut bearing = Simulation::new(oiled(), None).unwrap();
-    bearing.initialize(0.0).unwrap();
-    bits(&mut bearing, 0, 100);
-    let saved = bearing.save();
-    let bytes = saved.to_bytes();
-    let first = bits(&mut bearing, 100, 140);
-    bearing.restore(&saved).unwrap();
-    assert_eq!(bits(&mut bearing, 100, 140), first);
-    // By bytes in another simulation, whose films were those of another speed.
-    let mut other = Simulation::new(oiled(), None).unwrap();
-    other.initialize(0.0).unwrap();
-    bits(&mut other, 500, 501);
-    let state = other.state_from_bytes(&bytes).unwrap();
-    other.restore(&state).unwrap();
-    let mut before = Simulation::new(oiled(), None).unwrap();
-    before.initialize(0.0).unwrap();
-    bits(&mut before, 0, 100);
-    for name in ["element[1].force.outer", "shaft.force.y", "cage.torque"] {
-        assert_eq!(other.get(name).unwrap().to_bits(), before.get(name).unwrap().to_bits(), "{name}");
+    // The films of the other are those of another speed.
+    let (mut bearing, mut other) = (after(100, 10.0), after(1, 510.0));
+    let names = [
+        "shaft.y",
+        "shaft.force.y",
+        "element[1].path",
+        "element[1].force.outer",
+        "element[4].force.outer",
+        "cage.torque",
+        "sensor.acceleration",
+    ];
+    let state = other.0.state_from_bytes(&bearing.0.save().to_bytes()).unwrap();
+    other.0.restore(&state).unwrap();
+    assert_eq!(other.bits(names), bearing.bits(names));
+    for k in 100..140 {
+        bearing.set("shaft.speed", TAU * (10.0 + f64::from(k)));
+        bearing.goes_on_alike(&mut other, names, 1e-4, 1);
     }
-    assert_eq!(bits(&mut other, 100, 140), first);
 }
 
 /// What follows the speed through the films.
 const FOLLOWING: [&str; 6] =
     ["shaft.force.y", "housing.force.y", "shaft.ay", "element[1].force.inner", "element[2].force.outer", "cage.torque"];
-
-/// Derivatives of outputs by the speed, as both directional and adjoint products give them.
-fn by_speed(bearing: &mut Simulation, names: &[&str]) -> Vec<f64> {
-    let speed = bearing.reference("shaft.speed").unwrap();
-    let of_one = |name: &&str| {
-        let (unknown, mut found, mut adjoint) = (bearing.reference(name).unwrap(), [0.0], [0.0]);
-        bearing.directional_derivative(&[unknown], &[speed], &[1.0], &mut found).unwrap();
-        bearing.adjoint_derivative(&[unknown], &[speed], &[1.0], &mut adjoint).unwrap();
-        assert_eq!(found, adjoint, "{name}");
-        found[0]
-    };
-    names.iter().map(of_one).collect()
-}
-
-/// Central quotients of outputs by the speed (rad/s), without a step.
-fn quotients(bearing: &mut Simulation, names: &[&str], change: f64) -> Vec<f64> {
-    let middle = bearing.get("shaft.speed").unwrap();
-    let mut at = |speed: f64| {
-        bearing.set("shaft.speed", speed).unwrap();
-        names.iter().map(|name| bearing.get(name).unwrap()).collect::<Vec<_>>()
-    };
-    let (low, high) = (at(middle - change), at(middle + change));
-    at(middle);
-    high.iter().zip(low).map(|(high, low)| (high - low) / (2.0 * change)).collect()
-}
 
 #[test]
 fn outputs_follow_the_speed_through_the_films_as_their_derivatives_say() {
@@ -203,15 +167,16 @@ fn outputs_follow_the_speed_through_the_films_as_their_derivatives_say() {
             bearing.initialize(0.0).unwrap();
             bearing.step(1e-3).unwrap();
         }
-        let change = TAU * 1e-3;
-        let (found, quotients) = (by_speed(&mut bearing, &names), quotients(&mut bearing, &names, change));
-        for ((name, found), quotient) in names.iter().zip(found).zip(quotients) {
+        let speed = bearing.reference("shaft.speed").unwrap();
+        for (slope, &name) in by_input(&mut bearing, &names, "shaft.speed", TAU * 1e-3).iter().zip(&names) {
             // (1e-4)² of truncation, and the rounding of outputs that are up to 1e3 N, 1e3 m/s² and 1e9 N/m.
-            let rounding = if stiffnesses.contains(name) { 1e-5 * 1e9 * 1e-6 } else { 1e-6 };
-            assert!((found - quotient).abs() < 1e-5 * quotient.abs() + rounding, "{name}: {found} {quotient}");
+            let rounding = if stiffnesses.contains(&name) { 1e-5 * 1e9 * 1e-6 } else { 1e-6 };
+            assert!(slope.miss() < 1e-5 * slope.found.abs() + rounding, "{name}: {slope:?}");
+            let mut adjoint = [0.0];
+            bearing.adjoint_derivative(&[bearing.reference(name).unwrap()], &[speed], &[1.0], &mut adjoint).unwrap();
+            assert_eq!(adjoint, [slope.given], "{name}");
         }
         let table = bearing.table().to_vec();
-        let speed = bearing.reference("shaft.speed").unwrap();
         for dependencies in bearing.dependencies() {
             let name = &table[dependencies.output as usize].name;
             if stiffnesses.contains(&&**name) || FOLLOWING.contains(&&**name) {
@@ -248,18 +213,17 @@ fn outputs_change_with_time_as_the_films_do() {
 
 #[test]
 fn a_bearing_that_runs_down_and_stands_and_turns_back_has_numbers_throughout() {
-    let mut bearing = Simulation::new(oiled(), None).unwrap();
-    bearing.initialize(0.0).unwrap();
+    let mut bearing = Named::started(oiled());
     for k in 0..80 {
-        bearing.set("shaft.speed", TAU * (10.0 - 0.25 * f64::from(k)).max(0.0)).unwrap();
-        bearing.step(2.5e-4).unwrap();
-        assert!(bearing.get("shaft.y").unwrap().is_finite());
+        bearing.set("shaft.speed", TAU * (10.0 - 0.25 * f64::from(k)).max(0.0));
+        bearing.run(2.5e-4, 1);
+        assert!(bearing.get("shaft.y").is_finite());
     }
     for speed in [0.0, -1.0, -20.0] {
-        bearing.set("shaft.speed", speed).unwrap();
-        bearing.step(1e-3).unwrap();
+        bearing.set("shaft.speed", speed);
+        bearing.run(1e-3, 1);
     }
-    assert!(bearing.get("shaft.force.y").unwrap() > 100.0);
+    assert!(bearing.get("shaft.force.y") > 100.0);
 }
 
 #[test]
@@ -273,13 +237,11 @@ fn a_ring_that_a_host_lifts_feels_the_film_give_back_no_work() {
     (scene.shaft_speed, scene.gravity) = (0.0, [0.0; 2]);
     assert_eq!(scene.shaft.motion, Motion::Host);
     let work = |film: Option<Film>| {
-        let mut bearing = Named::new(Scene { film, ..scene.clone() });
         let (step, pace) = (1e-5, TAU * 200.0);
         let motion = |t: f64| (-3.5e-6 + 3e-6 * (pace * t).cos(), -3e-6 * pace * (pace * t).sin());
         let (y, vy) = motion(0.0);
-        bearing.set("shaft.y", y);
-        bearing.set("shaft.vy", vy);
-        bearing.0.initialize(0.0).unwrap();
+        let scene = Scene { film, ..scene.clone() };
+        let mut bearing = Named::started_with(scene, &[("shaft.y", y), ("shaft.vy", vy)]);
         let mut work = 0.0;
         for k in 0..500 {
             let (y, vy) = motion(f64::from(k) * step);
@@ -318,8 +280,7 @@ fn a_film_that_fills_the_bearing_is_remarked_upon_and_one_that_bursts_it_is_an_e
 /// within `span` (s), by steps of `step` (s).
 fn run_up(viscosity: f64, to: f64, span: f64, step: f64) -> Vec<f64> {
     let scene = Scene { film: Some(Film { viscosity, ..OIL }), shaft_speed: TAU * 10.0, ..shipped("6205-healthy") };
-    let mut bearing = Named::new(scene);
-    bearing.0.initialize(0.0).unwrap();
+    let mut bearing = Named::started(scene);
     let (speed, rate) = (bearing.0.reference("shaft.speed").unwrap(), TAU * (to - 10.0) / span);
     let (per_sample, samples) = ((1e-3 / step).round() as usize, (span / 1e-3).round() as usize);
     let mut signal = Vec::new();

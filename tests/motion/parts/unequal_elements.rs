@@ -58,7 +58,7 @@ fn elements_listed_as_equal_are_those_of_a_bearing_without_the_list() {
     let run = |scene: Scene| {
         let mut bearing = Named::started(Scene { shaft_speed: 60.0, ..scene });
         bearing.run(1e-4, 100);
-        ["shaft.y", "element[3].path", "cage.torque"].map(|name| bearing.get(name))
+        bearing.all(["shaft.y", "element[3].path", "cage.torque"])
     };
     for (a, b) in run(loaded()).into_iter().zip(run(with(loaded(), &[]))) {
         // Another compiled form of the same sums.

@@ -1,9 +1,9 @@
 //! Waviness: load distributions against an independent computation, energy, lines of a spectrum.
 
-use crate::support::defects::spall;
+use crate::support::Named;
+use crate::support::defects::{mapped, spall};
 use crate::support::energy::exchanged_and_lost;
 use crate::support::loaded::{TURNS, lines, loaded, preloaded, start};
-use crate::support::{Named, map_of};
 use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, ElementInertia, Scene, Waviness, WavyBody};
 use brinell::simulation::Simulation;
 use std::f64::consts::FRAC_PI_2;
@@ -85,39 +85,21 @@ fn wavy() -> Vec<(&'static str, Scene)> {
     let outer = with(loaded(), &[waves(Outer, 8, 2e-6, 30.0), waves(Outer, 3, 1e-6, -70.0)]);
     let inner = with(loaded(), &[waves(Inner, 7, 2e-6, 10.0)]);
     let element = with(loaded(), &[waves(Element(0), 4, 2e-6, 40.0), waves(Element(1), 2, 1e-6, 0.0)]);
-    let mut beside = outer.clone();
-    beside.defects = vec![Defect::outer(-FRAC_PI_2, spall(0.8e-3, 50e-6))];
-    let mut inside = inner.clone();
-    inside.defects = vec![Defect::inner(-FRAC_PI_2, spall(0.8e-3, 50e-6))];
-    let mut own = element.clone();
-    own.defects =
-        vec![Defect { on: DefectOn::Element { element: 0, tilt: 0.0 }, angle: 0.1, shape: spall(0.5e-3, 50e-6) }];
+    let damaged = |scene: &Scene, defect: Defect| Scene { defects: vec![defect], ..scene.clone() };
+    let beside = damaged(&outer, Defect::outer(-FRAC_PI_2, spall(0.8e-3, 50e-6)));
+    let inside = damaged(&inner, Defect::inner(-FRAC_PI_2, spall(0.8e-3, 50e-6)));
+    let on = DefectOn::Element { element: 0, tilt: 0.0 };
+    let own = damaged(&element, Defect { on, angle: 0.1, shape: spall(0.5e-3, 50e-6) });
     vec![("outer", outer), ("inner", inner), ("element", element), ("beside", beside), ("inside", inside), ("own", own)]
-}
-
-/// As fine a map as energy asks for, of the coarsest grid.
-fn started(scene: &Scene) -> Named {
-    let map = map_of(scene, None);
-    let mut bearing = Named(Simulation::with_map(scene.clone(), None, map.as_deref()).unwrap());
-    bearing.0.initialize(0.0).unwrap();
-    bearing
-}
-
-fn mapped(mut scene: Scene) -> Scene {
-    if !scene.defects.is_empty() {
-        (scene.contact.law, scene.contact.cells, scene.contact.map_accuracy) =
-            (ContactLaw::Map, Some([24, 16]), Some(1e-2));
-    }
-    scene
 }
 
 #[test]
 fn energy_goes_nowhere_but_into_the_forced_motions() {
     for (name, scene) in wavy() {
-        let mut scene = mapped(scene);
+        let mut scene = if scene.defects.is_empty() { scene } else { mapped(scene) };
         (scene.contact.damping, scene.shaft.damping) = (Damping::HuntCrossley(0.0), 0.0);
         (scene.tolerance, scene.gravity, scene.shaft_speed) = (1e-9, [3.0, -9.81], 100.0);
-        let mut bearing = started(&scene);
+        let mut bearing = Named::started(scene.clone());
         let [moved, lost] = exchanged_and_lost(&mut bearing, &scene, 2e-6, 3000);
         // Trapezoids of 2 µs over forces that swing in some 100 µs, over a defect's edges in some 10 µs.
         let share = if scene.defects.is_empty() { 1e-4 } else { 2e-3 };

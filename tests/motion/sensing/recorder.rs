@@ -1,8 +1,9 @@
 //! The recorder samples inside the step, and the recording is a file that NumPy reads.
 
+use crate::support::defects::short_spall;
 use crate::support::{Named, shipped};
 use brinell::recording::Recording;
-use brinell::scene::{ContactLaw, Defect, DefectShape, Recorder, RecorderFilter, Scene};
+use brinell::scene::{ContactLaw, Defect, Recorder, RecorderFilter, Scene};
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::PathBuf;
@@ -19,22 +20,9 @@ fn scene(filter: RecorderFilter) -> Scene {
     scene
 }
 
-fn recorded(scene: Scene) -> Named {
-    let mut run = Named::new(scene);
-    run.0.record_into("somewhere");
-    run.0.initialize(0.0).unwrap();
-    run
-}
-
 fn samples(run: &Named) -> (usize, Vec<f64>) {
     let samples = run.0.recorder().unwrap().samples();
     (samples.width, samples.values.to_vec())
-}
-
-/// Number of the column of a signal.
-fn column(run: &Named, name: &str) -> usize {
-    let reference = run.reference(name);
-    1 + run.0.recorder().unwrap().references().position(|r| r == reference).unwrap()
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -46,11 +34,9 @@ fn folder(name: &str) -> PathBuf {
 #[test]
 fn recording_changes_no_bit_of_the_run() {
     for filter in FILTERS {
-        let (mut with, mut without) = (recorded(scene(filter)), Named::started(scene(filter)));
-        for _ in 0..12 {
-            with.0.step(1e-3).unwrap();
-            without.0.step(1e-3).unwrap();
-        }
+        let (mut with, mut without) = (Named::recorded(scene(filter)), Named::started(scene(filter)));
+        with.run(1e-3, 12);
+        without.run(1e-3, 12);
         assert_same(&mut with, &mut without);
         assert!(without.0.recorder().is_none());
     }
@@ -62,10 +48,9 @@ fn recording_changes_no_bit_of_a_run_whose_contacts_are_solved_on_a_grid() {
     scene.contact.law = ContactLaw::Love;
     scene.contact.largest_force = Some(1000.0);
     // Element 1 enters a short shallow spall 0.1 mm from where it starts.
-    let shape = DefectShape::Spall { length: 2e-4, depth: 2e-6, edge_slope: FRAC_PI_2 };
-    scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
+    scene.defects = vec![Defect::outer(-FRAC_PI_2, short_spall())];
     scene.cage.initial_angle = -FRAC_PI_2 - 3e-4 / scene.bearing.outer_raceway_radius();
-    let (mut with, mut without) = (recorded(scene.clone()), Named::started(scene));
+    let (mut with, mut without) = (Named::recorded(scene.clone()), Named::started(scene));
     with.run(2e-5, 20);
     without.run(2e-5, 20);
     assert!(with.count("solver.contact_solves") > 0, "no element was near the defect");
@@ -94,21 +79,18 @@ fn a_host_that_steps_by_milliseconds_gets_what_one_gets_that_stops_at_each_sampl
     // gives about 1e-6 of a force or an acceleration; dense output and impacts cost the rest of the margin.
     let margins = [30.0 * 1e-4, 500.0 * 1e-4, 1e-4 * 1e-4, 400.0 * 1e-4, 1e-12];
     for filter in FILTERS {
-        let (mut far, mut near) = (recorded(scene(filter)), Named::started(scene(filter)));
-        for _ in 0..12 {
-            far.0.step(1e-3).unwrap();
-        }
+        let (mut far, mut near) = (Named::recorded(scene(filter)), Named::started(scene(filter)));
+        far.run(1e-3, 12);
         let (width, rows) = samples(&far);
-        let columns = names.map(|name| column(&far, name));
+        let columns = far.columns(&names);
         for (i, row) in rows.chunks(width).enumerate() {
             assert!((row[0] - i as f64 / RATE).abs() < 1e-15, "sample {i} is at {} s", row[0]);
-            for ((name, at), margin) in names.iter().zip(columns).zip(margins) {
+            for ((name, column), margin) in names.iter().zip(&columns).zip(margins) {
                 // What is filtered is no value of an instant.
                 if filter == RecorderFilter::LinearPhase && (name.ends_with(".ay") || name.ends_with("force.y")) {
                     continue;
                 }
-                let expected = near.get(name);
-                let found = row[at];
+                let (found, expected) = (column[i], near.get(name));
                 assert!((found - expected).abs() < margin, "{name} at sample {i}: {found}, by itself {expected}");
             }
             near.0.step(1.0 / RATE).unwrap();
@@ -125,7 +107,7 @@ fn every_sample_comes_once_however_time_is_split() {
     for (steps, filter) in splits.into_iter().flat_map(|steps| FILTERS.map(|filter| (steps, filter))) {
         let mut scene = shipped("6205-healthy");
         scene.recorder = Some(Recorder { rate: RATE, filter });
-        let mut run = recorded(scene);
+        let mut run = Named::recorded(scene);
         let mut time = 0.0;
         for &step in steps.iter().cycle() {
             if time + step > 0.02 + 1e-12 {
@@ -146,7 +128,7 @@ fn every_sample_comes_once_however_time_is_split() {
 #[test]
 fn samples_of_time_taken_back_are_taken_back() {
     for filter in FILTERS {
-        let (mut straight, mut wavering) = (recorded(scene(filter)), recorded(scene(filter)));
+        let (mut straight, mut wavering) = (Named::recorded(scene(filter)), Named::recorded(scene(filter)));
         for index in 0..8 {
             let saved = wavering.0.save();
             wavering.set("shaft.load.y", -900.0);
@@ -166,7 +148,7 @@ fn samples_of_time_taken_back_are_taken_back() {
 #[test]
 fn a_run_that_is_taken_up_where_nothing_was_recorded_is_recorded_from_there() {
     for filter in FILTERS {
-        let (mut on, mut off) = (recorded(scene(filter)), Named::started(scene(filter)));
+        let (mut on, mut off) = (Named::recorded(scene(filter)), Named::started(scene(filter)));
         on.run(1e-3, 3);
         off.0.restore(&on.0.save()).unwrap();
         off.run(1e-3, 3);
@@ -179,7 +161,7 @@ fn a_run_that_is_taken_up_where_nothing_was_recorded_is_recorded_from_there() {
         assert!((rows[0] - 6e-3).abs() < 1e-15, "the first is at {} s", rows[0]);
         let steady = off.get("shaft.force.y");
         // Where it begins, all stood as it is: a filter that took what was 3 ms ago or nothing would show it.
-        let force = rows[column(&on, "shaft.force.y")];
+        let force = on.columns(&["shaft.force.y"])[0][0];
         assert!((force - steady).abs() < 0.1 * steady.abs(), "{force} N after {steady} N");
     }
 }
@@ -250,7 +232,7 @@ fn no_folder_means_no_recording_and_a_scene_without_recorder_has_no_such_variabl
 fn a_step_that_is_inspected_and_parted_records_what_a_plain_one_does() {
     for filter in FILTERS {
         let (mut plain, mut inspected, mut parted) =
-            (recorded(scene(filter)), recorded(scene(filter)), recorded(scene(filter)));
+            (Named::recorded(scene(filter)), Named::recorded(scene(filter)), Named::recorded(scene(filter)));
         let speed = plain.reference("shaft.speed");
         for _ in 0..8 {
             plain.0.step(1e-3).unwrap();

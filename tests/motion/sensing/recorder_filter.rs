@@ -12,28 +12,13 @@ use std::ops::Range;
 
 fn started(mut scene: Scene, rate: f64, filter: RecorderFilter) -> Named {
     scene.recorder = Some(Recorder { rate, filter });
-    let mut run = Named::new(scene);
-    run.0.record_into("memory");
-    run.0.initialize(0.0).unwrap();
-    run
-}
-
-/// Columns of the rows that a run has kept.
-fn columns(run: &Named, names: &[&str]) -> Vec<Vec<f64>> {
-    let recorder = run.0.recorder().unwrap();
-    let samples = recorder.samples();
-    let column = |name: &&str| {
-        let reference = run.reference(name);
-        let at = 1 + recorder.references().position(|r| r == reference).unwrap();
-        samples.values.chunks(samples.width).map(|row| row[at]).collect()
-    };
-    names.iter().map(column).collect()
+    Named::recorded(scene)
 }
 
 fn recorded(scene: &str, rate: f64, filter: RecorderFilter, stop: f64, names: &[&str]) -> Vec<Vec<f64>> {
     let mut run = started(shipped(scene), rate, filter);
     run.run(1e-3, (stop * 1e3).round() as usize);
-    columns(&run, names)
+    run.columns(names)
 }
 
 /// Level of a signal in a part of its time (s), in a band (Hz): (dB).
@@ -106,7 +91,6 @@ fn rows_are_the_low_pass_of_the_signal_and_what_the_fast_samples_fold_is_80_db_b
         let mean = rows.iter().sum::<f64>() / rows.len() as f64;
         let power: f64 = rows.iter().map(|value| (value - mean) * (value - mean)).sum();
         let error: f64 = rows.iter().enumerate().map(|(k, value)| value - row(k)).map(|error| error * error).sum();
-        println!("{name}: {:.1} dB", 10.0 * libm::log10(error / power));
         assert!(error < 1e-8 * power, "{name}: {:.1} dB", 10.0 * libm::log10(error / power));
     }
 }
@@ -120,7 +104,6 @@ fn a_filtered_row_has_no_delay() {
         let mean = plain.iter().sum::<f64>() / plain.len() as f64;
         let rms = |of: &dyn Fn(usize) -> f64| ((0..plain.len()).map(|i| of(i) * of(i)).sum::<f64>()).sqrt();
         let off = |by: usize| rms(&|i| filtered[256 - by + i] - plain[i]) / rms(&|i| plain[i] - mean);
-        println!("{name}: off by {:.2e}, one row later by {:.2e}", off(0), off(1));
         // A healthy bearing has a hundredth of its vibration beyond 20 kHz; a row is a sixth of a radian at its 1.4
         // kHz.
         assert!(off(0) < 0.02 && off(1) > 0.1, "{name}: {} {}", off(0), off(1));

@@ -1,6 +1,7 @@
 //! The structure between the outer ring and a sensor.
 
-use crate::support::{Named, shipped};
+use crate::support::differences::{by_input, by_time};
+use crate::support::{Named, furthest, shipped};
 use brinell::scene::{Recorder, RecorderFilter, Ring, Scene, Sensor, SensorMode};
 use std::f64::consts::TAU;
 
@@ -47,28 +48,19 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| value.abs().max(most))
 }
 
-fn furthest(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).fold(0.0, |most, (a, b)| (a - b).abs().max(most))
-}
-
 #[test]
 fn a_sensor_behind_a_structure_shows_what_its_modes_make_of_the_base() {
     // Samples at 4 MHz of an acceleration that vibrates at up to 40 kHz: straight lines between them miss
     // (2π 40e3/4e6)²/12 = 3e-4 of it.
     let (h, count) = (2.5e-7, 60_000);
     let mut bearing = Named::started(impacts());
-    let names = [1, 2].map(|k| bearing.reference(&format!("sensor[{k}].acceleration")));
-    let mut shown = [vec![0.0], vec![0.0]];
-    for _ in 0..count {
-        bearing.0.step(h).unwrap();
-        let mut values = [0.0; 2];
-        bearing.0.reals(&names, &mut values).unwrap();
-        for (list, value) in shown.iter_mut().zip(values) {
-            list.push(value);
-        }
+    let (mut base, mut shown) = (vec![0.0], vec![0.0]);
+    for [of_base, behind] in bearing.course(["sensor[1].acceleration", "sensor[2].acceleration"], h, count) {
+        base.push(of_base);
+        shown.push(behind);
     }
-    let expected = behind(&MODES, h, &shown[0]);
-    let (miss, bare) = (furthest(&expected, &shown[1]), furthest(&expected, &shown[0]));
+    let expected = behind(&MODES, h, &base);
+    let (miss, bare) = (furthest(&expected, &shown), furthest(&expected, &base));
     assert!(bare > 0.1 * largest(&expected), "{bare} of {} m/s²", largest(&expected));
     assert!(miss < 3e-4 * largest(&expected), "{miss} of {} m/s²", largest(&expected));
 }
@@ -107,9 +99,7 @@ fn slow_motion_passes_a_structure_unchanged() {
 fn a_run_put_back_shows_the_same_bits_also_from_bytes() {
     let mut scene = impacts();
     scene.recorder = Some(Recorder { rate: 51_200.0, filter: RecorderFilter::LinearPhase });
-    let mut bearing = Named::new(scene);
-    bearing.0.record_into("somewhere");
-    bearing.0.initialize(0.0).unwrap();
+    let mut bearing = Named::recorded(scene);
     bearing.run(1e-3, 4);
     let saved = bearing.0.save();
     let bytes = saved.to_bytes();
@@ -136,21 +126,11 @@ fn the_recorder_sees_a_structure_as_a_host_that_stops_at_each_sample() {
     let rate = 40_000.0;
     let mut scene = impacts();
     scene.recorder = Some(Recorder { rate, filter: RecorderFilter::None });
-    let mut far = Named::new(scene.clone());
-    far.0.record_into("somewhere");
-    far.0.initialize(0.0).unwrap();
+    let mut far = Named::recorded(scene.clone());
     far.run(1e-3, 10);
-    let reference = far.reference("sensor[2].acceleration");
-    let recorder = far.0.recorder().unwrap();
-    let column = 1 + recorder.references().position(|of| of == reference).unwrap();
-    let samples = recorder.samples();
-    let recorded: Vec<f64> = samples.values.chunks(samples.width).map(|row| row[column]).collect();
-    let mut near = Named::started(scene);
-    let mut seen = vec![0.0];
-    for _ in 1..recorded.len() {
-        near.0.step(1.0 / rate).unwrap();
-        seen.push(near.get("sensor[2].acceleration"));
-    }
+    let recorded = far.columns(&["sensor[2].acceleration"]).remove(0);
+    let seen = Named::started(scene).course(["sensor[2].acceleration"], 1.0 / rate, recorded.len() - 1);
+    let seen = [&[0.0], seen.as_flattened()].concat();
     assert_eq!(recorded.len(), 400);
     // The two runs step differently, and the dense output of an implicit step is less exact than the step.
     assert!(furthest(&recorded, &seen) < 1e-3 * largest(&seen), "{}", furthest(&recorded, &seen));
@@ -162,37 +142,16 @@ fn derivatives_of_what_is_shown_are_difference_quotients() {
     (scene.shaft, scene.housing, scene.tolerance) = (Ring::hosted(), Ring::hosted(), 1e-11);
     scene.sensors = vec![Sensor { modes: MODES.to_vec(), ..Sensor::default() }];
     let mut bearing = Named::started(scene);
-    let names = ["housing.vy", "housing.y"].map(|name| bearing.reference(name));
-    bearing.0.set_reals(&names, &[2e-3, 0.0]).unwrap();
+    bearing.set("housing.vy", 2e-3);
+    bearing.set("housing.y", 0.0);
     bearing.run(1e-5, 9);
-    let output = bearing.reference("sensor.acceleration");
-    let start = names.map(|name| {
-        let mut value = [0.0];
-        bearing.0.reals(&[name], &mut value).unwrap();
-        value[0]
-    });
-    for (input, start) in names.into_iter().zip(start) {
-        let mut derivative = [0.0];
-        bearing.0.directional_derivative(&[output], &[input], &[1.0], &mut derivative).unwrap();
-        let mut at = |shift: f64| {
-            bearing.0.set_reals(&[input], &[start + shift]).unwrap();
-            bearing.get("sensor.acceleration")
-        };
-        let quotient = (at(1e-7) - at(-1e-7)) / 2e-7;
-        at(0.0);
-        assert!(quotient.abs() > 1.0 && (quotient / derivative[0] - 1.0).abs() < 1e-6, "{quotient} {derivative:?}");
+    for input in ["housing.vy", "housing.y"] {
+        let slope = by_input(&mut bearing.0, &["sensor.acceleration"], input, 1e-7)[0];
+        assert!(slope.found.abs() > 1.0 && slope.miss() < 1e-6 * slope.given.abs(), "{input}: {slope:?}");
     }
-    let mut rate = [0.0];
-    bearing.0.output_derivatives(&[output], &[1], &mut rate).unwrap();
-    // The second difference falls with the square of the step, the rounding of 1e-10 m of a resonator of 15 kHz grows.
-    let saved = bearing.0.save();
-    let h = 1e-8;
-    let before = bearing.get("sensor.acceleration");
-    bearing.0.step(h).unwrap();
-    let after = bearing.get("sensor.acceleration");
-    bearing.0.restore(&saved).unwrap();
-    let quotient = (after - before) / h;
-    assert!((quotient / rate[0] - 1.0).abs() < 1e-2, "{quotient} {rate:?}");
+    // Third differences fall with the square of the step, the rounding of 1e-10 m of a resonator of 15 kHz grows.
+    let slope = by_time(&mut bearing.0, &["sensor.acceleration"], 1e-8)[0];
+    assert!(slope.miss() < 1e-2 * slope.given.abs(), "{slope:?}");
 }
 
 #[test]
@@ -213,9 +172,7 @@ fn a_sample_at_the_very_start_of_a_step_is_a_number() {
     let mut scene = impacts();
     // Communication points and samples then fall together.
     scene.recorder = Some(Recorder { rate: 2_000.0, filter: RecorderFilter::None });
-    let mut bearing = Named::new(scene);
-    bearing.0.record_into("somewhere");
-    bearing.0.initialize(0.0).unwrap();
+    let mut bearing = Named::recorded(scene);
     bearing.run(5e-4, 20);
     let values = bearing.0.recorder().unwrap().samples().values.to_vec();
     assert!(values.len() > 20);

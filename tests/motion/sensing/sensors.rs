@@ -1,6 +1,7 @@
 //! Accelerometers along any direction, and the probe between the rings.
 
-use crate::support::{Named, shipped};
+use crate::support::differences::by_input;
+use crate::support::{Named, shipped, turned};
 use brinell::scene::{Ring, Scene, Sensor, SensorMode};
 use brinell::simulation::interface::table::Causality;
 
@@ -38,23 +39,9 @@ fn each_sensor_shows_the_housings_acceleration_along_its_own_direction() {
 fn turning_the_scene_with_its_sensors_changes_no_signal() {
     let mut scene = shipped("6205-healthy");
     (scene.tolerance, scene.sensors) = (1e-10, vec![sensor(90.0, 1.0), sensor(20.0, 0.3)]);
-    let by = 0.777f64;
-    let (sin, cos) = by.sin_cos();
-    let turned = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
-    let mut other = scene.clone();
-    (other.gravity, other.shaft.load) = (turned(scene.gravity), turned(scene.shaft.load));
-    other.cage.initial_angle += by;
-    other.sensors.iter_mut().for_each(|sensor| sensor.direction += by);
-    let course = |scene: Scene| {
-        let mut bearing = Named::started(scene);
-        (0..80)
-            .map(|_| {
-                bearing.0.step(1e-4).unwrap();
-                [1, 2].map(|k| bearing.get(&format!("sensor[{k}].acceleration")))
-            })
-            .collect::<Vec<_>>()
-    };
-    let (one, other) = (course(scene), course(other));
+    let other = turned(&scene, 0.777);
+    let names = ["sensor[1].acceleration", "sensor[2].acceleration"];
+    let [one, other] = [scene, other].map(|scene| Named::started(scene).course(names, 1e-4, 80));
     let largest = one.as_flattened().iter().fold(0.0f64, |most, a| most.max(a.abs()));
     for (a, b) in one.as_flattened().iter().zip(other.as_flattened()) {
         // The tolerance of the integration, a thousandfold for an acceleration.
@@ -113,29 +100,12 @@ fn derivatives_of_sensors_and_probe_are_difference_quotients() {
     scene.sensors = vec![sensor(90.0, 1.0), sensor(-30.0, 0.2)];
     let mut bearing = Named::started(scene);
     bearing.run(1e-5, 5);
-    let known = ["housing.x", "housing.y", "housing.vx", "shaft.y"];
     let unknown = ["sensor[1].acceleration", "sensor[2].acceleration", "probe.x", "probe.y"];
-    let outputs = unknown.map(|name| bearing.reference(name));
     let mut compared = 0;
-    for name in known {
-        let input = bearing.reference(name);
-        let mut derivative = [0.0; 4];
-        bearing.0.directional_derivative(&outputs, &[input], &[1.0], &mut derivative).unwrap();
-        let start = bearing.get(name);
-        let mut at = |shift: f64| {
-            bearing.0.set_reals(&[input], &[start + shift]).unwrap();
-            unknown.map(|name| bearing.get(name))
-        };
-        let (before, after) = (at(-1e-7), at(1e-7));
-        at(0.0);
-        for k in 0..4 {
-            let quotient = (after[k] - before[k]) / 2e-7;
-            assert!(
-                (quotient - derivative[k]).abs() <= 1e-6 * quotient.abs() + 1e-6,
-                "{name} {} {quotient}",
-                derivative[k]
-            );
-            compared += usize::from(quotient != 0.0);
+    for known in ["housing.x", "housing.y", "housing.vx", "shaft.y"] {
+        for slope in by_input(&mut bearing.0, &unknown, known, 1e-7) {
+            assert!(slope.miss() <= 1e-6 * slope.found.abs() + 1e-6, "{known}: {slope:?}");
+            compared += usize::from(slope.found != 0.0);
         }
     }
     // By housing.x sensor 2 and the probe, by housing.y both sensors and the probe, by housing.vx sensor 2, by shaft.y

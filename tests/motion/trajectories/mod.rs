@@ -70,7 +70,6 @@ fn follows(name: &str, scene: &str, steps: usize, host: impl Fn(&mut Named, f64)
             *worst = worst.max((bearing.get(name) - expected).abs());
         }
     }
-    println!("{name}: path within {path:.1e} m, ring within {ring:.1e} m");
     assert!(rows.len() > 40 && path < 1e-10 && ring < 1e-12, "{name}: path off by {path:e} m, ring by {ring:e} m");
 }
 
