@@ -8,13 +8,12 @@
 use crate::case::{Case, Motion, Shape};
 use crate::draw::{Draw, for_seeds};
 use crate::random_case::random;
-use crate::three::{Host, reals};
+use crate::three::Host;
 use crate::two::{self, Resources};
 use crate::units::position_error;
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit};
-use brinell_fmi::fmi2::fmi2GetDirectionalDerivative;
-use brinell_fmi::fmi3::{Status, fmi3GetDirectionalDerivative, fmi3GetOutputDerivatives};
+use brinell_fmi::fmi3::Status;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -79,11 +78,11 @@ impl Both {
     fn new(resources: Resources) -> Result<Self, String> {
         let resources = Arc::new(resources);
         let two = two::Host::with(Arc::clone(&resources), "instance", false);
-        let three = Host::with(resources, "instance 1", &[], None);
+        let three = Host::with(resources, "instance 1", true);
         let simulation = three.simulation();
         let is_output = |row: &u32| simulation.table()[*row as usize].causality == Causality::Output;
         let arrays = simulation.arrays();
-        let unknowns: Vec<u32> = reals(simulation).0.into_iter().filter(is_output).collect();
+        let unknowns: Vec<u32> = three.reals().0.into_iter().filter(is_output).collect();
         let all = |first: &u32| match arrays.iter().find(|array| array.rows[0] == *first) {
             Some(array) => array.rows.to_vec(),
             None => vec![*first],
@@ -115,43 +114,20 @@ impl Both {
 
     /// Derivatives of all outputs by one known, by both versions.
     fn given(&self, known: u32) -> Result<Vec<f64>, String> {
-        let mut found = [vec![f64::NAN; self.rows.len()], vec![f64::NAN; self.rows.len()]];
-        // SAFETY: the arrays are as long as said.
-        let (of_three, of_two) = unsafe {
-            let (knowns, seed) = (&raw const known, &1.0);
-            let values = found[0].as_mut_ptr();
-            let unknowns = (self.unknowns.as_ptr(), self.unknowns.len());
-            let of_three = fmi3GetDirectionalDerivative(
-                self.three.c,
-                unknowns.0,
-                unknowns.1,
-                knowns,
-                1,
-                seed,
-                1,
-                values,
-                self.rows.len(),
-            );
-            let values = found[1].as_mut_ptr();
-            let rows = (self.rows.as_ptr(), self.rows.len());
-            (of_three, fmi2GetDirectionalDerivative(self.two.c, rows.0, rows.1, knowns, 1, seed, values))
-        };
-        let name = self.name(known);
-        if of_three != Status::Ok {
-            return Err(format!("by {name}, FMI 3.0: {of_three:?}: {}", self.three.last_message()));
-        }
-        if of_two != brinell_fmi::fmi2::Status::Ok {
-            return Err(format!("by {name}, FMI 2.0: {of_two:?}"));
-        }
-        if two::bits(&found[0]) != two::bits(&found[1]) {
+        let (name, known) = (self.name(known), [known]);
+        let of_three = self.three.directional([&self.unknowns, &known], &[1.0], self.rows.len());
+        let of_three =
+            of_three.map_err(|status| format!("by {name}, FMI 3.0: {status:?}: {}", self.three.last_message()))?;
+        let of_two = self.two.directional(&self.rows, &known, &[1.0]);
+        let of_two = of_two.map_err(|status| format!("by {name}, FMI 2.0: {status:?}"))?;
+        if two::bits(&of_three) != two::bits(&of_two) {
             return Err(format!("by {name} FMI 3.0 and 2.0 differ"));
         }
-        Ok(found[0].clone())
+        Ok(of_three)
     }
 
     fn set(&self, known: u32, value: f64) -> Result<(), String> {
-        let two = self.two.set(&[known], &[value]) == brinell_fmi::fmi2::Status::Ok;
-        if two && self.three.set(&[known], &[value]) == Status::Ok {
+        if self.two.set(&[known], &[value]) == Status::Ok && self.three.set(&[known], &[value]) == Status::Ok {
             return Ok(());
         }
         Err(format!("{} = {value}: {}", self.name(known), self.three.last_message()))
@@ -223,16 +199,8 @@ impl Both {
 
     /// Compares the derivatives by time with short steps.
     fn by_time(&self, point: f64, count: &mut Count) -> Result<(), String> {
-        let (orders, length) = (vec![1; self.unknowns.len()], self.rows.len());
-        let mut given = vec![f64::NAN; length];
-        // SAFETY: the arrays are as long as said.
-        let status = unsafe {
-            let (unknowns, count) = (self.unknowns.as_ptr(), self.unknowns.len());
-            fmi3GetOutputDerivatives(self.three.c, unknowns, count, orders.as_ptr(), given.as_mut_ptr(), length)
-        };
-        if status != Status::Ok {
-            return Err(format!("by time: {}", self.three.last_message()));
-        }
+        let given = self.three.by_time(&self.unknowns, self.rows.len());
+        let given = given.map_err(|_| format!("by time: {}", self.three.last_message()))?;
         let state = self.three.save();
         let after = |step: f64| -> Result<Vec<f64>, String> {
             self.three.do_step(point, step).map_err(|_| self.three.last_message())?;
@@ -271,10 +239,7 @@ impl Both {
     /// values.
     fn agree(&self, values: &[(&str, f64)], step: f64) -> Result<Count, String> {
         let mut count = Count::default();
-        let ok = |two: brinell_fmi::fmi2::Status, three: Status| {
-            let both = two == brinell_fmi::fmi2::Status::Ok && three == Status::Ok;
-            if both { Ok(()) } else { Err(self.three.last_message()) }
-        };
+        let ok = |both: [Status; 2]| if both == [Status::Ok; 2] { Ok(()) } else { Err(self.three.last_message()) };
         let inputs = self.three.table().iter().filter(|row| row.causality == Causality::Input);
         for row in inputs.clone() {
             if let Some((_, value)) = values.iter().find(|(name, _)| row.name == *name) {
@@ -282,8 +247,7 @@ impl Both {
             }
         }
         let inputs: Vec<u32> = inputs.map(|row| row.reference).collect();
-        ok(self.two.setup(None, 0.0, None), Status::Ok)?;
-        ok(self.two.enter(), self.three.enter(None, 0.0, None))?;
+        ok([self.two.begin(None, 0.0, None), self.three.begin(None, 0.0, None)])?;
         let mut knowns: Vec<u32> = self.dependencies.iter().flat_map(|of| of.initial.iter().copied()).collect();
         knowns.sort_unstable();
         knowns.dedup();
@@ -291,13 +255,9 @@ impl Both {
             self.by(known, |of| of.initial.contains(&known), &mut count)
                 .map_err(|why| format!("in initialization mode, {why}"))?;
         }
-        ok(self.two.exit(), self.three.exit())?;
-        let points = [0.0, step, 2.0 * step];
-        for point in points {
-            ok(
-                self.two.step(point, step),
-                self.three.do_step(point, step).map_or_else(|status| status, |_| Status::Ok),
-            )?;
+        ok([self.two.exit(), self.three.exit()])?;
+        for point in [0.0, step, 2.0 * step] {
+            ok([self.two.advance(point, step), self.three.advance(point, step)])?;
         }
         for input in inputs {
             self.by(input, |of| of.direct.contains(&input), &mut count)

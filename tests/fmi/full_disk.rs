@@ -31,9 +31,8 @@ fn room(bytes: libc::rlim_t) {
 
 /// A healthy bearing that is about to record, at its first communication point.
 fn recording(name: &str, folder: &Path, logging: bool) -> Host {
-    let scene = brinell_tests::root().join("scenes/6205-healthy.toml");
-    let text = fs::read_to_string(scene).unwrap() + "\n[recorder]\nrate_hz = 51200.0\n";
-    let host = Host::with(Resources::new(&text, None, "resources"), name, logging);
+    let recorder = |text: String| text + "\n[recorder]\nrate_hz = 51200.0\n";
+    let host = Host::with(Resources::edited("6205-healthy", "resources", recorder), name, logging);
     begin(&host, folder);
     host
 }

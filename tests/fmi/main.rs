@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod allocations;
+mod both;
 #[path = "../support/counting.rs"]
 mod counting;
 #[path = "../fmi2/mod.rs"]

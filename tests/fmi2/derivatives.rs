@@ -1,6 +1,7 @@
 //! Derivatives by inputs: what the functions give is what a host finds by differences.
 
 use crate::two::Host;
+use crate::two::any_host::is_real;
 use brinell::simulation::interface::table::{Causality, Dependencies, Kind, Unit, Variable};
 use brinell_fmi::fmi2::*;
 
@@ -16,16 +17,12 @@ pub(crate) const SCENES: [&str; 7] = [
     "er16k-tb2-compliant",
 ];
 
-pub(crate) fn is_real(variable: &&Variable) -> bool {
-    matches!(variable.kind, Kind::Real { .. })
-}
-
 pub(crate) fn inputs(table: &[Variable]) -> Vec<&Variable> {
     table.iter().filter(|v| v.causality == Causality::Input).collect()
 }
 
 pub(crate) fn outputs(table: &[Variable]) -> Vec<&Variable> {
-    table.iter().filter(|v| v.causality == Causality::Output).filter(is_real).collect()
+    table.iter().filter(|v| v.causality == Causality::Output && is_real(v)).collect()
 }
 
 pub(crate) fn references(variables: &[&Variable]) -> Vec<u32> {
@@ -33,36 +30,12 @@ pub(crate) fn references(variables: &[&Variable]) -> Vec<u32> {
 }
 
 impl Host {
-    pub(crate) fn directional(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Result<Vec<f64>, Status> {
-        let mut values = vec![f64::NAN; unknowns.len()];
-        // SAFETY: the arrays are as long as said.
-        let status = unsafe {
-            fmi2GetDirectionalDerivative(
-                self.c,
-                unknowns.as_ptr(),
-                unknowns.len(),
-                knowns.as_ptr(),
-                knowns.len(),
-                seed.as_ptr(),
-                values.as_mut_ptr(),
-            )
-        };
-        if status == Status::Ok { Ok(values) } else { Err(status) }
-    }
-
-    pub(crate) fn by_time(&self, unknowns: &[u32], order: i32) -> Result<Vec<f64>, Status> {
-        let (orders, mut values) = (vec![order; unknowns.len()], vec![f64::NAN; unknowns.len()]);
-        // SAFETY: the arrays are as long as said.
-        let status = unsafe {
-            let (unknowns, count) = (unknowns.as_ptr(), unknowns.len());
-            fmi2GetRealOutputDerivatives(self.c, unknowns, count, orders.as_ptr(), values.as_mut_ptr())
-        };
-        if status == Status::Ok { Ok(values) } else { Err(status) }
-    }
-
-    pub(crate) fn rate(&self, reference: u32, order: i32, value: f64) -> Status {
-        // SAFETY: one element each.
-        unsafe { fmi2SetRealInputDerivatives(self.c, &raw const reference, 1, &raw const order, &raw const value) }
+    /// An instance at its first communication point, pressed.
+    pub(crate) fn pressed(scene: &str) -> Self {
+        let host = Self::of(scene);
+        host.press();
+        host.start();
+        host
     }
 
     /// Presses the inner ring into the elements, moving and sliding a little, where the host moves it.
@@ -83,7 +56,7 @@ impl Host {
             ("housing.ay", 0.4),
         ];
         for (name, value) in values {
-            if let Some(input) = inputs(&table).into_iter().find(|v| v.name == name) {
+            if let Some(input) = inputs(table).into_iter().find(|v| v.name == name) {
                 assert_eq!(self.set(&[input.reference], &[value]), Status::Ok);
             }
         }
@@ -106,7 +79,7 @@ fn nudge(input: &Variable) -> f64 {
 /// Differences of all outputs by each input, against the derivatives given; and whether each output moved.
 fn compare(host: &Host, moment: &str) -> Vec<Vec<bool>> {
     let table = host.table();
-    let (inputs, outputs) = (inputs(&table), outputs(&table));
+    let (inputs, outputs) = (inputs(table), outputs(table));
     let unknowns = references(&outputs);
     let middle = host.get(&unknowns).unwrap();
     let mut moved = Vec::new();
@@ -143,7 +116,7 @@ fn compare(host: &Host, moment: &str) -> Vec<Vec<bool>> {
 /// Outputs that moved against outputs that are said to depend. An element that is never loaded never moves, so what is
 /// said of elements must be true of one.
 fn check_dependencies(host: &Host, moved: &[Vec<bool>], listed: impl Fn(&Dependencies) -> &[u32], moment: &str) {
-    let (table, dependencies) = (&host.table()[..], host.simulation().dependencies());
+    let (table, dependencies) = (host.table(), host.simulation().dependencies());
     let outputs = outputs(table);
     let kind = |name: &str| name.split_once(']').map_or(name, |(_, kind)| kind).to_owned();
     for (i, output) in outputs.iter().enumerate() {
@@ -186,9 +159,7 @@ fn merge(all: &mut Vec<Vec<bool>>, more: Vec<Vec<bool>>) {
 #[test]
 fn directional_derivatives_at_communication_points_are_central_differences() {
     for scene in SCENES {
-        let host = Host::of(scene);
-        host.press();
-        host.start();
+        let host = Host::pressed(scene);
         let mut moved = Vec::new();
         let mut time = 0.0;
         for point in 0..50 {
@@ -212,8 +183,7 @@ fn directional_derivatives_in_initialization_mode_are_central_differences() {
             let host = Host::of(scene);
             host.press();
             assert_eq!(host.set(&[host.reference("cage.initial_angle")], &[angle]), Status::Ok);
-            assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-            assert_eq!(host.enter(), Status::Ok);
+            assert_eq!(host.begin(None, 0.0, None), Status::Ok);
             merge(&mut moved, compare(&host, &format!("{scene}, initial angle {angle}")));
         }
         let host = Host::of(scene);
@@ -225,8 +195,7 @@ fn directional_derivatives_in_initialization_mode_are_central_differences() {
             }
         }
         host.press();
-        assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-        assert_eq!(host.enter(), Status::Ok);
+        assert_eq!(host.begin(None, 0.0, None), Status::Ok);
         merge(&mut moved, compare(&host, &format!("{scene}, both rings held")));
         check_dependencies(&host, &moved, |d| &d.initial, &format!("{scene}, start"));
     }
@@ -234,13 +203,11 @@ fn directional_derivatives_in_initialization_mode_are_central_differences() {
 
 #[test]
 fn a_directional_derivative_is_linear_in_its_seed() {
-    let host = Host::of("er16k-tb1-hosted-shaft");
-    host.press();
-    host.start();
+    let host = Host::pressed("er16k-tb1-hosted-shaft");
     assert_eq!(host.step(0.0, 6e-3), Status::Ok);
     host.press();
     let table = host.table();
-    let (knowns, unknowns) = (references(&inputs(&table)), references(&outputs(&table)));
+    let (knowns, unknowns) = (references(&inputs(table)), references(&outputs(table)));
     let seed: Vec<f64> = (0..knowns.len()).map(|i| 0.5 - i as f64).collect();
     let together = host.directional(&unknowns, &knowns, &seed).unwrap();
     let mut sum = vec![0.0; unknowns.len()];
@@ -304,8 +271,7 @@ fn a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode() {
     for axis in ["shaft.load.x", "shaft.load.y"] {
         assert_eq!(host.set(&[host.reference(axis)], &[0.0]), Status::Ok);
     }
-    assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-    assert_eq!(host.enter(), Status::Ok);
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok);
     let (load, y) = (host.reference("shaft.load.y"), host.reference("shaft.y"));
     assert!(host.get(&[y]).is_ok());
     assert_eq!(host.directional(&[y], &[load], &[1.0]), Err(Status::Discard));
@@ -316,13 +282,9 @@ fn a_loose_ring_has_an_output_but_no_derivative_in_initialization_mode() {
 #[test]
 fn asking_for_derivatives_changes_nothing_that_follows() {
     for scene in SCENES {
-        let (asked, silent) = (Host::of(scene), Host::of(scene));
-        for host in [&asked, &silent] {
-            host.press();
-            host.start();
-        }
+        let (asked, silent) = (Host::pressed(scene), Host::pressed(scene));
         let table = asked.table();
-        let (knowns, unknowns) = (references(&inputs(&table)), references(&outputs(&table)));
+        let (knowns, unknowns) = (references(&inputs(table)), references(&outputs(table)));
         let seed = vec![1.0; knowns.len()];
         for n in 0..40 {
             let time = f64::from(n) * 2e-4;

@@ -1,6 +1,7 @@
 //! Hosts that break the rules in ways that a random walk (`tests/adversary/misuse`) leaves out.
 
-use crate::two::{Host, logger};
+use crate::both::{probes, refuse};
+use crate::two::Host;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
@@ -26,40 +27,29 @@ fn a_logger_may_call_another_instance() {
 
 #[test]
 fn every_pointer_may_be_null_in_every_function() {
-    let _ = logger();
-    let host = Host::started("er16k-tb1");
-    let state = host.save();
-    let c = host.c;
-    // SAFETY: NULL is what is tested, with counts that say otherwise.
-    let calls: Vec<Box<dyn Fn() -> Status>> = unsafe {
-        vec![
-            Box::new(move || fmi2SetDebugLogging(c, TRUE, 3, ptr::null())),
-            Box::new(move || fmi2GetReal(c, ptr::null(), 3, ptr::null_mut())),
-            Box::new(move || fmi2GetInteger(c, ptr::null(), 3, ptr::null_mut())),
-            Box::new(move || fmi2GetBoolean(c, ptr::null(), 3, ptr::null_mut())),
-            Box::new(move || fmi2GetString(c, ptr::null(), 3, ptr::null_mut())),
-            Box::new(move || fmi2SetReal(c, ptr::null(), 3, ptr::null())),
-            Box::new(move || fmi2SetInteger(c, ptr::null(), 3, ptr::null())),
-            Box::new(move || fmi2SetBoolean(c, ptr::null(), 3, ptr::null())),
-            Box::new(move || fmi2SetString(c, ptr::null(), 3, ptr::null())),
-            Box::new(move || fmi2GetFMUstate(c, ptr::null_mut())),
-            Box::new(move || fmi2SetFMUstate(c, ptr::null_mut())),
-            Box::new(move || fmi2SerializedFMUstateSize(c, ptr::null_mut(), ptr::null_mut())),
-            Box::new(move || fmi2SerializeFMUstate(c, ptr::null_mut(), ptr::null_mut(), 9)),
-            Box::new(move || fmi2DeSerializeFMUstate(c, ptr::null(), 9, ptr::null_mut())),
-            Box::new(move || {
-                fmi2GetDirectionalDerivative(c, ptr::null(), 1, ptr::null(), 1, ptr::null(), ptr::null_mut())
-            }),
-            Box::new(move || fmi2SetRealInputDerivatives(c, ptr::null(), 1, ptr::null(), ptr::null())),
-            Box::new(move || fmi2GetRealOutputDerivatives(c, ptr::null(), 1, ptr::null(), ptr::null_mut())),
-            Box::new(move || fmi2GetStatus(c, DO_STEP_STATUS, ptr::null_mut())),
-            Box::new(move || fmi2GetRealStatus(c, LAST_SUCCESSFUL_TIME, ptr::null_mut())),
-            Box::new(move || fmi2GetBooleanStatus(c, TERMINATED, ptr::null_mut())),
-            Box::new(move || fmi2GetStringStatus(c, PENDING_STATUS, ptr::null_mut())),
-        ]
+    // With counts that say otherwise.
+    let probes = probes! {
+        fmi2SetDebugLogging "" (TRUE, 3, ptr::null());
+        fmi2GetReal "" (ptr::null(), 3, ptr::null_mut());
+        fmi2GetInteger "" (ptr::null(), 3, ptr::null_mut());
+        fmi2GetBoolean "" (ptr::null(), 3, ptr::null_mut());
+        fmi2GetString "" (ptr::null(), 3, ptr::null_mut());
+        fmi2SetReal "" (ptr::null(), 3, ptr::null());
+        fmi2SetInteger "" (ptr::null(), 3, ptr::null());
+        fmi2SetBoolean "" (ptr::null(), 3, ptr::null());
+        fmi2SetString "" (ptr::null(), 3, ptr::null());
+        fmi2GetFMUstate "" (ptr::null_mut());
+        fmi2SetFMUstate "" (ptr::null_mut());
+        fmi2SerializedFMUstateSize "" (ptr::null_mut(), ptr::null_mut());
+        fmi2SerializeFMUstate "" (ptr::null_mut(), ptr::null_mut(), 9);
+        fmi2DeSerializeFMUstate "" (ptr::null(), 9, ptr::null_mut());
+        fmi2GetDirectionalDerivative "" (ptr::null(), 1, ptr::null(), 1, ptr::null(), ptr::null_mut());
+        fmi2SetRealInputDerivatives "" (ptr::null(), 1, ptr::null(), ptr::null());
+        fmi2GetRealOutputDerivatives "" (ptr::null(), 1, ptr::null(), ptr::null_mut());
+        fmi2GetStatus "" (DO_STEP_STATUS, ptr::null_mut());
+        fmi2GetRealStatus "" (LAST_SUCCESSFUL_TIME, ptr::null_mut());
+        fmi2GetBooleanStatus "" (TERMINATED, ptr::null_mut());
+        fmi2GetStringStatus "" (PENDING_STATUS, ptr::null_mut());
     };
-    for (number, call) in calls.iter().enumerate() {
-        assert_eq!(call(), Status::Error, "call {number}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
+    refuse(&Host::started("er16k-tb1"), &probes);
 }

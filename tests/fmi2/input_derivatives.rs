@@ -1,19 +1,11 @@
 //! Derivatives of inputs by time: each order is used or refused.
 
+use super::derivatives::inputs;
 use crate::two::{Host, bits};
-use brinell::simulation::interface::table::{Causality, Variable};
-use brinell_fmi::fmi2::*;
+use brinell::simulation::interface::table::Variable;
+use brinell_fmi::fmi2::Status;
 
 const SCENES: [&str; 3] = ["er16k-tb1", "er16k-tb1-hosted-shaft", "6205-hosted"];
-
-fn derive(host: &Host, reference: u32, order: i32, value: f64) -> Status {
-    // SAFETY: one element each.
-    unsafe { fmi2SetRealInputDerivatives(host.c, &raw const reference, 1, &raw const order, &raw const value) }
-}
-
-fn inputs(host: &Host) -> Vec<Variable> {
-    host.table().into_iter().filter(|variable| variable.causality == Causality::Input).collect()
-}
 
 /// Highest order that acts.
 fn highest(input: &Variable) -> i32 {
@@ -26,7 +18,7 @@ fn highest(input: &Variable) -> i32 {
 /// A run that has the inner ring pressed into the elements.
 fn pressed(scene: &str) -> Host {
     let host = Host::of(scene);
-    if inputs(&host).iter().any(|input| input.name == "shaft.y") {
+    if inputs(host.table()).iter().any(|input| input.name == "shaft.y") {
         assert_eq!(host.set(&[host.reference("shaft.y")], &[-20e-6]), Status::Ok);
     }
     host.start();
@@ -37,13 +29,13 @@ fn pressed(scene: &str) -> Host {
 fn every_input_takes_the_orders_that_its_description_names_and_no_others() {
     for scene in SCENES {
         let host = pressed(scene);
-        for input in inputs(&host) {
-            let highest = highest(&input);
+        for input in inputs(host.table()) {
+            let highest = highest(input);
             let said = ["derivative of order 1 acts", "derivatives of orders 1 and 2 act"][highest as usize - 1];
             assert!(input.description.contains(said), "{}: {}", input.name, input.description);
             for order in 1..5 {
                 host.lines();
-                let status = derive(&host, input.reference, order, 0.5);
+                let status = host.rate(input.reference, order, 0.5);
                 assert_eq!(
                     status,
                     if order <= highest { Status::Ok } else { Status::Discard },
@@ -67,10 +59,10 @@ fn orders_that_do_not_exist_and_variables_that_are_no_inputs_are_errors() {
     let state = host.save();
     let speed = host.reference("shaft.speed");
     for (reference, order) in [(speed, 0), (speed, -1), (host.reference("shaft.force.y"), 1), (u32::MAX, 1)] {
-        assert_eq!(derive(&host, reference, order, 1.0), Status::Error);
+        assert_eq!(host.rate(reference, order, 1.0), Status::Error);
         assert_eq!(host.restore(state), Status::Ok);
     }
-    assert_eq!(derive(&host, speed, 1, f64::NAN), Status::Discard);
+    assert_eq!(host.rate(speed, 1, f64::NAN), Status::Discard);
 }
 
 #[test]
@@ -81,7 +73,7 @@ fn every_order_that_is_taken_acts() {
         let after = |derivative: Option<(u32, i32, f64)>| {
             assert_eq!(host.restore(start), Status::Ok);
             if let Some((reference, order, value)) = derivative {
-                assert_eq!(derive(&host, reference, order, value), Status::Ok);
+                assert_eq!(host.rate(reference, order, value), Status::Ok);
             }
             assert_eq!(host.step(0.0, 1e-3), Status::Ok, "{:?}", host.lines());
             bits(&host.get(&all).unwrap())
@@ -89,8 +81,8 @@ fn every_order_that_is_taken_acts() {
         let without = after(None);
         assert_eq!(after(None), without);
         let forces: Vec<usize> = all.iter().enumerate().filter(|(_, r)| is_force(&host, **r)).map(|(i, _)| i).collect();
-        for input in inputs(&host) {
-            for order in 1..=highest(&input) {
+        for input in inputs(host.table()) {
+            for order in 1..=highest(input) {
                 let with = after(Some((input.reference, order, 0.3)));
                 // Along x an element above may touch nothing; but something in the bearing has another force.
                 let moved = forces.iter().any(|&i| with[i] != without[i]);
@@ -123,7 +115,7 @@ fn a_motion_is_the_same_in_whichever_variables_it_is_told() {
     let [_, v, a, j] = MOTION;
     let set = |host: &Host, reference: u32, value: f64| assert_eq!(host.set(&[reference], &[value]), Status::Ok);
     let rate = |host: &Host, reference: u32, order: i32, value: f64| {
-        assert_eq!(derive(host, reference, order, value), Status::Ok);
+        assert_eq!(host.rate(reference, order, value), Status::Ok);
     };
     let plainly = told(|host, by| {
         set(host, by("shaft.vy"), v);
@@ -182,8 +174,8 @@ fn a_derivative_of_zero_takes_the_place_of_the_input_as_well() {
     let without = told(|_, _| ());
     let with = told(|host, by| {
         assert_eq!(host.set(&[by("shaft.vy"), by("shaft.ay")], &[3e-3, 500.0]), Status::Ok);
-        assert_eq!(derive(host, by("shaft.y"), 1, 0.0), Status::Ok);
-        assert_eq!(derive(host, by("shaft.vy"), 1, 0.0), Status::Ok);
+        assert_eq!(host.rate(by("shaft.y"), 1, 0.0), Status::Ok);
+        assert_eq!(host.rate(by("shaft.vy"), 1, 0.0), Status::Ok);
     });
     assert_eq!(bits(&with), bits(&without));
 }
@@ -201,7 +193,7 @@ fn a_step_of_a_ring_that_jerks_is_a_hundred_small_ones() {
             let t = f64::from(n) * step;
             let now = [MOTION[0] + t * (v + t * (a / 2.0 + t * j / 6.0)), v + t * (a + t * j / 2.0), a + t * j];
             assert_eq!(host.set(&names, &now), Status::Ok);
-            assert_eq!(derive(&host, names[2], 1, j), Status::Ok);
+            assert_eq!(host.rate(names[2], 1, j), Status::Ok);
             assert_eq!(host.step(t, step), Status::Ok);
         }
         let seen = ["shaft.force.y", "housing.vy", "element[1].force.outer"];
@@ -220,7 +212,7 @@ fn an_input_follows_its_derivative_inside_the_step() {
     let (speed, angle) = (host.reference("shaft.speed"), host.reference("cage.angle"));
     let before = host.get(&[speed, angle, host.reference("cage.speed")]).unwrap();
     let rate = 1000.0;
-    assert_eq!(derive(&host, speed, 1, rate), Status::Ok);
+    assert_eq!(host.rate(speed, 1, rate), Status::Ok);
     assert_eq!(host.step(0.0, 1e-2), Status::Ok);
     let turned = host.get(&[angle]).unwrap()[0] - before[1];
     let cage_ratio = before[2] / before[0];

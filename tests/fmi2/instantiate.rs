@@ -1,20 +1,13 @@
 //! Instances: what makes one, what is refused, and handles.
 
-use crate::two::{Call, FORBIDDEN_CALLS, Host, Line, Resources, logger};
+use crate::two::{Call, FORBIDDEN_CALLS, Host, Line, Resources, bits};
 use brinell::scene::model_file;
 use brinell_fmi::fmi2::*;
-use std::ffi::{CStr, c_void};
+use std::ffi::c_void;
 use std::{fs, ptr};
 
 fn good<'a>(guid: &'a str, location: &'a str) -> Call<'a> {
-    Call {
-        name: Some("instance 1"),
-        fmu_type: CO_SIMULATION,
-        guid: Some(guid),
-        location: Some(location),
-        logger: Some(logger()),
-        logging: false,
-    }
+    Call::good("instance 1", guid, location)
 }
 
 /// The one line that goes with NULL.
@@ -26,13 +19,6 @@ fn refusal(call: &Call<'_>) -> Line {
     let line = lines.remove(0);
     assert_eq!((line.status, line.category.as_str(), line.format.as_str()), (Status::Error, "logStatusError", "%s"));
     line
-}
-
-#[test]
-fn types_platform_and_version_are_those_of_the_standard() {
-    // SAFETY: static strings.
-    let texts = unsafe { [CStr::from_ptr(fmi2GetTypesPlatform()), CStr::from_ptr(fmi2GetVersion())] };
-    assert_eq!(texts, [c"default", c"2.0"]);
 }
 
 #[test]
@@ -208,7 +194,7 @@ fn instances_in_eight_threads_give_the_bits_of_one_alone() {
         for n in 0..40 {
             assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
         }
-        crate::two::bits(&host.get(&host.reals()).unwrap())
+        bits(&host.all())
     };
     let alone = run();
     let together: Vec<_> = std::thread::scope(|scope| {
@@ -252,7 +238,7 @@ fn floating_point_control_state_is_left_alone_and_changes_no_bit() {
     let stepped = || {
         let host = Host::started("er16k-tb1");
         let statuses = [0.0, 1e-4, 2e-4].map(|point| host.step(point, 1e-4));
-        (statuses, crate::two::bits(&host.get(&host.reals()).unwrap()), control())
+        (statuses, bits(&host.all()), control())
     };
     set(odd);
     // First, so that what instances share is made now.

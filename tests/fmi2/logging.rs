@@ -101,7 +101,6 @@ fn steps_and_values_in_order_log_nothing() {
     assert!(host.lines().is_empty());
 }
 
-type Logger = unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, ...);
 type Unwinding = unsafe extern "C-unwind" fn(ComponentEnvironment, FmiString, Status, FmiString, FmiString, FmiString);
 
 unsafe extern "C-unwind" fn unwind(
@@ -118,42 +117,30 @@ unsafe extern "C-unwind" fn unwind(
 #[test]
 fn a_logger_that_unwinds_fails_its_instance_and_leaves_the_process_alone() {
     // SAFETY: as in `host`; that a logger may unwind is part of its type.
-    let logger: Logger = unsafe { std::mem::transmute::<Unwinding, LoggerCallback>(unwind) };
+    let logger = unsafe { std::mem::transmute::<Unwinding, LoggerCallback>(unwind) };
     let resources = Resources::of("6205-healthy");
-    let call = Call {
-        name: Some("instance 1"),
-        fmu_type: CO_SIMULATION,
-        guid: Some(&resources.guid),
-        location: Some(&resources.uri()),
-        logger: Some(logger),
-        logging: false,
-    };
-    let (c, _log) = call.make();
-    assert!(!c.is_null());
+    let (guid, location) = (resources.guid.clone(), resources.uri());
+    let parts = Call { logger: Some(logger), ..Call::good("instance 1", &guid, &location) }.make();
+    let host = Host::of_parts(parts, resources.into());
     // SAFETY: a living handle; no categories.
-    unsafe {
-        assert_eq!(fmi2SetupExperiment(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
-        assert_eq!(fmi2SetDebugLogging(c, TRUE, 0, ptr::null()), Status::Ok);
-        // It unwinds when it hears of the new mode, and again when it hears of that.
-        assert_eq!(fmi2EnterInitializationMode(c), Status::Error);
-        assert_eq!(fmi2ExitInitializationMode(c), Status::Error);
-        assert_eq!(fmi2SetDebugLogging(c, FALSE, 0, ptr::null()), Status::Ok);
-        assert_eq!(fmi2Reset(c), Status::Ok);
-        assert_eq!(fmi2SetupExperiment(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
-        assert_eq!(fmi2EnterInitializationMode(c), Status::Ok);
-        fmi2FreeInstance(c);
-    }
+    let switch = |on: Boolean| unsafe { fmi2SetDebugLogging(host.c, on, 0, ptr::null()) };
+    assert_eq!((host.setup(None, 0.0, None), switch(TRUE)), (Status::Ok, Status::Ok));
+    // It unwinds when it hears of the new mode, and again when it hears of that.
+    assert_eq!((host.enter(), host.exit()), (Status::Error, Status::Error));
+    assert_eq!((switch(FALSE), host.reset()), (Status::Ok, Status::Ok));
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok);
+}
+
+/// Warnings with this word since the last look.
+fn warnings(host: &Host, word: &str) -> usize {
+    host.lines().iter().filter(|line| line.status == Status::Warning && line.message.contains(word)).count()
 }
 
 #[test]
 fn contacts_that_a_shoulder_cuts_are_warned_of_once() {
     let host = Host::started("7205-preloaded");
-    let warnings = |host: &Host| {
-        let lines = host.lines().into_iter();
-        lines.filter(|line| line.status == Status::Warning && line.message.contains("shoulder")).count()
-    };
     host.step(0.0, 1e-4);
-    assert_eq!(warnings(&host), 0);
+    assert_eq!(warnings(&host, "shoulder"), 0);
     // Two hundred times the preload: the ellipses reach over the edges of their grooves.
     assert_eq!(host.set(&[host.reference("shaft.load.z")], &[60e3]), Status::Ok);
     for step in 1..4 {
@@ -161,7 +148,7 @@ fn contacts_that_a_shoulder_cuts_are_warned_of_once() {
     }
     let cut = host.get_integers(&[host.reference("solver.truncated_contacts")]).unwrap()[0];
     assert!(cut > 1, "{cut}");
-    assert_eq!(warnings(&host), 1);
+    assert_eq!(warnings(&host, "shoulder"), 1);
 }
 
 #[test]
@@ -183,12 +170,9 @@ fn contacts_beside_the_slices_of_a_topography_are_warned_of_once() {
     let host = Host::with(Resources::new(scene, Some(("pit.csv", &pit)), "resources"), "beside", true);
     // On the track: 15 degrees of 0.3176 mm.
     let positions = [host.reference("shaft.y"), host.reference("shaft.z")];
-    assert_eq!((host.setup(None, 0.0, None), host.enter()), (Status::Ok, Status::Ok), "{:?}", host.lines());
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok, "{:?}", host.lines());
     assert_eq!((host.set(&positions, &[-2e-6, 86e-6]), host.exit()), (Status::Ok, Status::Ok), "{:?}", host.lines());
-    let warnings = || {
-        let lines = host.lines().into_iter();
-        lines.filter(|line| line.status == Status::Warning && line.message.contains("off_track_contacts")).count()
-    };
+    let warnings = || warnings(&host, "off_track_contacts");
     assert_eq!(host.step(0.0, 1e-5), Status::Ok);
     let counter = [host.reference("solver.off_track_contacts")];
     assert_eq!((warnings(), host.get_integers(&counter).unwrap()), (0, vec![0]));

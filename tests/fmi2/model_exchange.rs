@@ -1,6 +1,7 @@
 //! Model exchange (FMI 2.0, chapter 3): its functions in their order, out of it, and what they give.
 
-use crate::two::{Call, Host, Log, Resources, logger};
+use crate::both::{probes, refuse};
+use crate::two::{Call, Host, Log, Resources};
 use brinell_fmi::fmi2::*;
 use std::sync::Arc;
 use std::{fs, ptr};
@@ -12,24 +13,15 @@ fn resources(scene: &str) -> Arc<Resources> {
     resources.into()
 }
 
-fn made(resources: &Arc<Resources>) -> (Component, Box<Log>) {
-    let call = Call {
-        name: Some("integrated"),
-        fmu_type: MODEL_EXCHANGE,
-        guid: Some(&resources.guid),
-        location: Some(&resources.uri()),
-        logger: Some(logger()),
-        logging: true,
-    };
-    call.make()
+fn made(resources: &Resources) -> (Component, Box<Log>) {
+    let (guid, location) = (&resources.guid, resources.uri());
+    Call { fmu_type: MODEL_EXCHANGE, logging: true, ..Call::good("integrated", guid, &location) }.make()
 }
 
 /// An instance in event mode.
 fn started(scene: &str) -> Host {
     let resources = resources(scene);
-    let (c, log) = made(&resources);
-    assert!(!c.is_null());
-    let host = Host { c, log, resources };
+    let host = Host::of_parts(made(&resources), resources);
     host.start();
     host
 }
@@ -86,28 +78,20 @@ fn an_fmu_for_model_exchange_goes_from_event_mode_to_continuous_time_and_back() 
 
 #[test]
 fn functions_of_the_other_kind_and_out_of_their_mode_are_errors() {
-    // SAFETY: any handle may be passed; pointers are to what they say, or not read.
-    type Wrong = fn(&Host) -> Status;
-    let wrong: [(&str, Wrong); 4] = [
-        ("fmi2DoStep", |h| h.step(0.0, 1e-5)),
-        ("fmi2SetContinuousStates", |h| unsafe { fmi2SetContinuousStates(h.c, [0.0; STATES].as_ptr(), STATES) }),
-        ("fmi2CompletedIntegratorStep", |h| unsafe {
-            fmi2CompletedIntegratorStep(h.c, TRUE, ptr::null_mut(), ptr::null_mut())
-        }),
-        ("fmi2GetDerivatives", |h| unsafe { fmi2GetDerivatives(h.c, [0.0; 3].as_mut_ptr(), 3) }),
-    ];
-    for (name, call) in wrong {
-        let host = started("er16k-tb1");
-        assert_eq!(call(&host), Status::Error, "{name}");
-        let line = host.lines().pop().unwrap();
-        assert!(line.message.starts_with(name), "{line:?}");
+    let wrong = probes! {
+        fmi2DoStep "" (0.0, 1e-5, TRUE);
+        fmi2SetContinuousStates "" ([0.0; STATES].as_ptr(), STATES);
+        fmi2CompletedIntegratorStep "" (TRUE, ptr::null_mut(), ptr::null_mut());
+        fmi2GetDerivatives "" ([0.0; 3].as_mut_ptr(), 3);
+    };
+    for probe in wrong {
+        refuse(&started("er16k-tb1"), &[probe]);
     }
 }
 
 #[test]
 fn an_fmu_that_is_not_for_model_exchange_says_how_to_build_one() {
-    let resources: Arc<Resources> = Resources::of("er16k-tb1").into();
-    let (c, log) = made(&resources);
+    let (c, log) = made(&Resources::of("er16k-tb1"));
     assert!(c.is_null());
     assert!(log.take().last().unwrap().message.contains("--kind both"));
 }

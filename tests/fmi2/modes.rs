@@ -1,105 +1,53 @@
 //! In which mode each function may be called.
 
-use crate::two::Host;
+use crate::both::{self, MODES, Probe, in_mode, probes};
+use crate::two::{Host, Two};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
-type Probe = (&'static str, &'static str, fn(&Host) -> Status);
+/// Calls of every function that takes an instance, in a way that succeeds or is at most discarded where the function is
+/// allowed. The letters are the modes of the table in section 4.2.4 of the standard, written down here a second time.
+const PROBES: &[Probe] = &probes! {
+    fmi2SetDebugLogging "IZCTE" (TRUE, 0, ptr::null());
+    fmi2SetupExperiment "I" (FALSE, 0.0, 0.0, FALSE, 0.0);
+    fmi2EnterInitializationMode "I" ();
+    fmi2ExitInitializationMode "Z" ();
+    fmi2Terminate "C" ();
+    fmi2Reset "IZCTE" ();
+    fmi2GetReal "ZCTE" (ptr::null(), 0, ptr::null_mut());
+    fmi2GetInteger "ZCTE" (ptr::null(), 0, ptr::null_mut());
+    fmi2GetBoolean "ZCTE" (ptr::null(), 0, ptr::null_mut());
+    fmi2GetString "ZCTE" (ptr::null(), 0, ptr::null_mut());
+    fmi2SetReal "IZC" (ptr::null(), 0, ptr::null());
+    fmi2SetInteger "IZC" (ptr::null(), 0, ptr::null());
+    fmi2SetBoolean "IZC" (ptr::null(), 0, ptr::null());
+    fmi2SetString "IZC" (ptr::null(), 0, ptr::null());
+    fmi2GetFMUstate "IZCTE" (&mut ptr::null_mut());
+    fmi2FreeFMUstate "IZCTE" (ptr::null_mut());
+    fmi2SetRealInputDerivatives "IZC" (ptr::null(), 0, ptr::null(), ptr::null());
+    fmi2DoStep "C" (0.0, 1e-5, TRUE);
+    fmi2CancelStep "" ();
+    fmi2GetStatus "CT" (DO_STEP_STATUS, &mut Status::Fatal);
+    fmi2GetRealStatus "CT" (LAST_SUCCESSFUL_TIME, &mut 0.0);
+    fmi2GetIntegerStatus "CT" (DO_STEP_STATUS, &mut 0);
+    fmi2GetBooleanStatus "CT" (TERMINATED, &mut 0);
+    fmi2GetStringStatus "CT" (PENDING_STATUS, &mut ptr::null());
+};
 
-/// Calls every function that takes an instance, in a way that succeeds or is at most discarded where the function is
-/// allowed. The letters are the modes of the table in section 4.2.4 of the standard: Instantiated, initialiZation,
-/// step Complete, Terminated, Error; written down here a second time, from the standard.
-// SAFETY of all the blocks: nothing but the handle, NULL with a count of 0, and pointers to one value are passed.
-const PROBES: &[Probe] = &[
-    ("fmi2SetDebugLogging", "IZCTE", |h| unsafe { fmi2SetDebugLogging(h.c, TRUE, 0, ptr::null()) }),
-    ("fmi2SetupExperiment", "I", |h| h.setup(None, 0.0, None)),
-    ("fmi2EnterInitializationMode", "I", |h| {
-        // Right only after an experiment has been set up, which the fixture does.
-        h.enter()
-    }),
-    ("fmi2ExitInitializationMode", "Z", |h| h.exit()),
-    ("fmi2Terminate", "C", |h| h.terminate()),
-    ("fmi2Reset", "IZCTE", |h| h.reset()),
-    ("fmi2GetReal", "ZCTE", |h| unsafe { fmi2GetReal(h.c, ptr::null(), 0, ptr::null_mut()) }),
-    ("fmi2GetInteger", "ZCTE", |h| unsafe { fmi2GetInteger(h.c, ptr::null(), 0, ptr::null_mut()) }),
-    ("fmi2GetBoolean", "ZCTE", |h| unsafe { fmi2GetBoolean(h.c, ptr::null(), 0, ptr::null_mut()) }),
-    ("fmi2GetString", "ZCTE", |h| unsafe { fmi2GetString(h.c, ptr::null(), 0, ptr::null_mut()) }),
-    ("fmi2SetReal", "IZC", |h| unsafe { fmi2SetReal(h.c, ptr::null(), 0, ptr::null()) }),
-    ("fmi2SetInteger", "IZC", |h| unsafe { fmi2SetInteger(h.c, ptr::null(), 0, ptr::null()) }),
-    ("fmi2SetBoolean", "IZC", |h| unsafe { fmi2SetBoolean(h.c, ptr::null(), 0, ptr::null()) }),
-    ("fmi2SetString", "IZC", |h| unsafe { fmi2SetString(h.c, ptr::null(), 0, ptr::null()) }),
-    ("fmi2GetFMUstate", "IZCTE", |h| {
-        let mut state = ptr::null_mut();
-        unsafe { fmi2GetFMUstate(h.c, &raw mut state) }
-    }),
-    ("fmi2FreeFMUstate", "IZCTE", |h| unsafe { fmi2FreeFMUstate(h.c, ptr::null_mut()) }),
-    ("fmi2SetRealInputDerivatives", "IZC", |h| unsafe {
-        fmi2SetRealInputDerivatives(h.c, ptr::null(), 0, ptr::null(), ptr::null())
-    }),
-    ("fmi2DoStep", "C", |h| h.step(0.0, 1e-5)),
-    ("fmi2CancelStep", "", |h| unsafe { fmi2CancelStep(h.c) }),
-    ("fmi2GetStatus", "CT", |h| {
-        let mut value = Status::Fatal;
-        unsafe { fmi2GetStatus(h.c, DO_STEP_STATUS, &raw mut value) }
-    }),
-    ("fmi2GetRealStatus", "CT", |h| {
-        let mut value = 0.0;
-        unsafe { fmi2GetRealStatus(h.c, LAST_SUCCESSFUL_TIME, &raw mut value) }
-    }),
-    ("fmi2GetIntegerStatus", "CT", |h| {
-        let mut value = 0;
-        unsafe { fmi2GetIntegerStatus(h.c, DO_STEP_STATUS, &raw mut value) }
-    }),
-    ("fmi2GetBooleanStatus", "CT", |h| {
-        let mut value = 0;
-        unsafe { fmi2GetBooleanStatus(h.c, TERMINATED, &raw mut value) }
-    }),
-    ("fmi2GetStringStatus", "CT", |h| {
-        let mut value = ptr::null();
-        unsafe { fmi2GetStringStatus(h.c, PENDING_STATUS, &raw mut value) }
-    }),
-];
-
-fn in_mode(mode: char) -> Host {
-    let host = Host::of("6205-healthy");
+/// Initialization is right only after that.
+fn experiment(host: &Host) {
     assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-    if mode != 'I' {
-        assert_eq!(host.enter(), Status::Ok);
-    }
-    if "CTE".contains(mode) {
-        assert_eq!(host.exit(), Status::Ok);
-    }
-    match mode {
-        'T' => assert_eq!(host.terminate(), Status::Ok),
-        'E' => assert_eq!(host.step(0.0, -1.0), Status::Error),
-        _ => {}
-    }
-    host.lines();
-    host
 }
 
 #[test]
 fn every_function_is_allowed_in_the_modes_of_the_standards_table_and_in_no_other() {
-    for (name, allowed, probe) in PROBES {
-        for mode in "IZCTE".chars() {
-            let host = in_mode(mode);
-            let status = probe(&host);
-            let lines = host.lines();
-            if allowed.contains(mode) {
-                assert!(status <= Status::Discard, "{name} in {mode}: {lines:?}");
-            } else {
-                assert_eq!(status, Status::Error, "{name} in {mode}");
-                let line = lines.last().unwrap();
-                assert!(line.message.starts_with(name) && line.message.contains("not allowed in mode"), "{line:?}");
-            }
-        }
-    }
+    both::allowed_in_their_modes(PROBES, experiment, |_, _, _| {});
 }
 
 #[test]
 fn saved_states_may_be_handled_in_every_mode() {
-    for mode in "IZCTE".chars() {
-        let host = in_mode(mode);
+    for mode in MODES.chars() {
+        let host = in_mode(mode, experiment);
         let state = host.save();
         let bytes = host.serialize(state);
         let copy = host.deserialize(&bytes).unwrap();
@@ -135,21 +83,7 @@ fn initialization_needs_an_experiment_first() {
 
 #[test]
 fn a_reset_instance_runs_like_a_new_one_to_the_bit() {
-    let run = |host: &Host| {
-        host.start();
-        for n in 0..20 {
-            assert_eq!(host.step(f64::from(n) * 1e-4, 1e-4), Status::Ok);
-        }
-        crate::two::bits(&host.get(&host.reals()).unwrap())
-    };
-    let host = Host::of("er16k-tb1");
-    let first = run(&host);
-    assert_eq!(host.reset(), Status::Ok);
-    let slip = host.reference("cage.slip");
-    assert_eq!(host.set(&[slip], &[0.5]), Status::Ok);
-    assert_ne!(run(&host), first);
-    assert_eq!(host.reset(), Status::Ok);
-    assert_eq!(run(&host), first);
+    both::runs_anew_after_a_reset::<Two>();
 }
 
 #[test]
@@ -162,32 +96,19 @@ fn cancelling_a_step_is_an_error_that_says_why() {
 
 #[test]
 fn the_functions_of_model_exchange_are_errors_that_name_the_right_one() {
-    // SAFETY of all the blocks: the arguments are not read.
-    let probes: [Probe; 10] = [
-        ("fmi2EnterEventMode", "", |h| unsafe { fmi2EnterEventMode(h.c) }),
-        ("fmi2NewDiscreteStates", "", |h| unsafe { fmi2NewDiscreteStates(h.c, ptr::null_mut()) }),
-        ("fmi2EnterContinuousTimeMode", "", |h| unsafe { fmi2EnterContinuousTimeMode(h.c) }),
-        ("fmi2CompletedIntegratorStep", "", |h| unsafe {
-            fmi2CompletedIntegratorStep(h.c, TRUE, ptr::null_mut(), ptr::null_mut())
-        }),
-        ("fmi2SetTime", "", |h| unsafe { fmi2SetTime(h.c, 0.0) }),
-        ("fmi2SetContinuousStates", "", |h| unsafe { fmi2SetContinuousStates(h.c, ptr::null(), 3) }),
-        ("fmi2GetDerivatives", "", |h| unsafe { fmi2GetDerivatives(h.c, ptr::null_mut(), 3) }),
-        ("fmi2GetEventIndicators", "", |h| unsafe { fmi2GetEventIndicators(h.c, ptr::null_mut(), 0) }),
-        ("fmi2GetContinuousStates", "", |h| unsafe { fmi2GetContinuousStates(h.c, ptr::null_mut(), 3) }),
-        ("fmi2GetNominalsOfContinuousStates", "", |h| unsafe {
-            fmi2GetNominalsOfContinuousStates(h.c, ptr::null_mut(), 3)
-        }),
-    ];
-    let host = Host::started("6205-healthy");
-    let state = host.save();
-    for (name, _, probe) in probes {
-        host.lines();
-        assert_eq!(probe(&host), Status::Error, "{name}");
-        let line = host.lines().pop().unwrap();
-        assert!(line.message.starts_with(name) && line.message.contains("fmi2DoStep"), "{line:?}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
+    let probes = probes! {
+        fmi2EnterEventMode "fmi2DoStep" ();
+        fmi2NewDiscreteStates "fmi2DoStep" (ptr::null_mut());
+        fmi2EnterContinuousTimeMode "fmi2DoStep" ();
+        fmi2CompletedIntegratorStep "fmi2DoStep" (TRUE, ptr::null_mut(), ptr::null_mut());
+        fmi2SetTime "fmi2DoStep" (0.0);
+        fmi2SetContinuousStates "fmi2DoStep" (ptr::null(), 3);
+        fmi2GetDerivatives "fmi2DoStep" (ptr::null_mut(), 3);
+        fmi2GetEventIndicators "fmi2DoStep" (ptr::null_mut(), 0);
+        fmi2GetContinuousStates "fmi2DoStep" (ptr::null_mut(), 3);
+        fmi2GetNominalsOfContinuousStates "fmi2DoStep" (ptr::null_mut(), 3);
+    };
+    both::refuse(&Host::started("6205-healthy"), &probes);
     // SAFETY: a handle that is not one.
     assert_eq!(unsafe { fmi2SetTime(ptr::null_mut(), 0.0) }, Status::Error);
 }

@@ -9,11 +9,9 @@ use std::ptr;
 #[test]
 fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
     for scene in SCENES {
-        let host = Host::of(scene);
-        host.press();
-        host.start();
+        let host = Host::pressed(scene);
         let table = host.table();
-        let outputs: Vec<_> = outputs(&table).into_iter().filter(|v| !v.name.contains("mean_force")).collect();
+        let outputs: Vec<_> = outputs(table).into_iter().filter(|v| !v.name.contains("mean_force")).collect();
         let unknowns = references(&outputs);
         let mut time = 0.0;
         for point in 0..8 {
@@ -21,7 +19,7 @@ fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
             assert_eq!(host.step(time, step), Status::Ok);
             time += step;
             host.press();
-            for input in inputs(&table) {
+            for input in inputs(table) {
                 match input.name.as_str() {
                     "shaft.speed" => assert_eq!(host.rate(input.reference, 1, 40.0), Status::Ok),
                     name if name.contains("load") => assert_eq!(host.rate(input.reference, 1, 1e3), Status::Ok),

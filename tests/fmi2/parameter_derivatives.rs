@@ -1,7 +1,8 @@
 //! Derivatives by parameters, which are knowns in initialization mode.
 
-use super::derivatives::{SCENES, is_real, outputs, references};
+use super::derivatives::{SCENES, outputs, references};
 use crate::two::Host;
+use crate::two::any_host::is_real;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};
 use brinell_fmi::fmi2::*;
 
@@ -29,18 +30,14 @@ fn derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_
                 }
             }
             host.press();
-            assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-            assert_eq!(host.enter(), Status::Ok);
+            assert_eq!(host.begin(None, 0.0, None), Status::Ok);
         }
         let table = host.table();
-        let unknowns = references(&outputs(&table));
+        let unknowns = references(&outputs(table));
         let middle = host.get(&unknowns).unwrap();
         let dependencies = host.simulation().dependencies();
         let mut compared = 0;
-        for known in table.iter().filter(|v| v.causality == Causality::Parameter) {
-            if !is_real(&known) {
-                continue;
-            }
+        for known in table.iter().filter(|v| v.causality == Causality::Parameter && is_real(v)) {
             let listed =
                 |unknown: u32| dependencies.iter().any(|d| d.output == unknown && d.initial.contains(&known.reference));
             let given = host.directional(&unknowns, &[known.reference], &[1.0]).unwrap();
@@ -81,9 +78,7 @@ fn derivatives_by_every_known_listed_of_initial_unknowns_are_differences_of_two_
 
 #[test]
 fn a_parameter_at_its_limit_has_a_derivative_into_what_may_be_set() {
-    let host = Host::of("er16k-tb1");
-    assert_eq!(host.setup(None, 0.0, None), Status::Ok);
-    assert_eq!(host.enter(), Status::Ok);
+    let host = Host::initializing("er16k-tb1");
     let [slip, speed, stiffness, y] =
         ["cage.slip", "cage.speed", "shaft.stiffness", "shaft.y"].map(|name| host.reference(name));
     let at = host.get(&[slip, stiffness, speed, y]).unwrap();

@@ -10,19 +10,12 @@ const FOLDER: &str = "BRINELL_TEST_STATE";
 const STEP: f64 = 2e-6;
 const COUNT: u32 = 30;
 
-fn scene(name: &str, law: &str) -> Resources {
-    let text = fs::read_to_string(brinell_tests::root().join("scenes").join(name)).unwrap();
-    assert!(text.contains("law = \"map\""));
-    Resources::new(&text.replace("law = \"map\"", &format!("law = \"{law}\"")), None, "resources")
-}
-
 /// The reals after each of some steps from `from`.
 fn run(host: &Host, from: f64) -> String {
-    let all = host.reals();
-    let mut lines = format!("{:x?}\n", bits(&host.get(&all).unwrap()));
+    let mut lines = format!("{:x?}\n", bits(&host.all()));
     for n in 0..COUNT {
         assert_eq!(host.step(from + f64::from(n) * STEP, STEP), Status::Ok, "{:?}", host.lines());
-        lines += &format!("{:x?}\n", bits(&host.get(&all).unwrap()));
+        lines += &format!("{:x?}\n", bits(&host.all()));
     }
     lines
 }
@@ -69,15 +62,16 @@ fn continues_elsewhere(resources: Resources, lead: f64) {
 #[test]
 fn a_state_taken_in_an_impact_continues_in_another_process_with_the_same_bits() {
     // 10.2 ms: element 1 strikes the trailing edge of the spall.
-    continues_elsewhere(scene("er16k-tb1.toml", "hertz"), 10.2e-3);
+    continues_elsewhere(Resources::of("er16k-tb1"), 10.2e-3);
 }
 
 #[test]
 fn a_state_taken_with_law_love_continues_in_another_process_with_the_same_bits() {
     // Element 1 enters the spall after 5 ms. The start is beside the edge, or the grid would be solved too often for a
     // test.
-    let text = fs::read_to_string(brinell_tests::root().join("scenes/er16k-tb1.toml")).unwrap();
-    let angle = text.lines().find(|line| line.starts_with("initial_angle_deg")).unwrap();
-    let text = text.replace(angle, "initial_angle_deg = -98.3").replace("law = \"map\"", "law = \"love\"");
-    continues_elsewhere(Resources::new(&text, None, "resources"), 3e-4);
+    let edited = |text: String| {
+        let angle = text.lines().find(|line| line.starts_with("initial_angle_deg")).unwrap();
+        text.replace(angle, "initial_angle_deg = -98.3").replace("law = \"hertz\"", "law = \"love\"")
+    };
+    continues_elsewhere(Resources::edited("er16k-tb1", "resources", edited), 3e-4);
 }

@@ -11,16 +11,15 @@ const FOLDER: &str = "BRINELL_TEST_RECORDINGS";
 
 /// A healthy bearing with a recorder, that is to record into `folder`.
 fn recorder(name: &str, folder: &Path) -> Host {
-    let scene = brinell_tests::root().join("scenes/6205-healthy.toml");
-    let text = fs::read_to_string(scene).unwrap() + "\n[recorder]\nrate_hz = 51200.0\n";
-    let host = Host::with(Resources::new(&text, None, "resources"), name, true);
+    let recorder = |text: String| text + "\n[recorder]\nrate_hz = 51200.0\n";
+    let host = Host::with(Resources::edited("6205-healthy", "resources", recorder), name, true);
     assert_eq!(host.set_text(host.reference("recorder.folder"), folder.to_str().unwrap()), Status::Ok);
     host
 }
 
 /// Starts an instance whose recording must be refused, and gives the reason.
 fn refused(host: &Host) -> String {
-    assert_eq!((host.setup(None, 0.0, None), host.enter()), (Status::Ok, Status::Ok));
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok);
     assert_eq!(host.exit(), Status::Error, "two instances write one recording");
     host.lines().pop().unwrap().message
 }

@@ -1,41 +1,14 @@
 //! Saving, restoring and serializing the state of an instance.
 
-use crate::two::{Host, Resources, bits};
+use crate::both::{self, STEP, run};
+use crate::two::{Host, Resources, Two};
 use brinell::simulation::interface::table::Kind;
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
-const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
-const STEP: f64 = 1e-4;
-
-/// Steps `count` times from step number `first`, with a speed that changes, and gives all reals after each.
-fn run(host: &Host, first: u32, count: u32) -> Vec<Vec<u64>> {
-    let (speed, all) = (host.reference("shaft.speed"), host.reals());
-    (first..first + count)
-        .map(|n| {
-            assert_eq!(host.set(&[speed], &[60.0 + 0.1 * f64::from(n)]), Status::Ok);
-            assert_eq!(host.step(f64::from(n) * STEP, STEP), Status::Ok, "{:?}", host.lines());
-            bits(&host.get(&all).unwrap())
-        })
-        .collect()
-}
-
 #[test]
 fn a_rewound_instance_repeats_every_bit() {
-    for scene in SCENES {
-        let host = Host::started(scene);
-        run(&host, 0, 55);
-        // An element of the ER16K has just met the spall's edge.
-        let state = host.save();
-        let before = bits(&host.get(&host.reals()).unwrap());
-        let first = run(&host, 55, 20);
-        for _ in 0..2 {
-            assert_eq!(host.restore(state), Status::Ok);
-            assert_eq!(bits(&host.get(&host.reals()).unwrap()), before, "{scene}");
-            assert_eq!(run(&host, 55, 20), first, "{scene}");
-        }
-        assert_eq!(host.free(state), Status::Ok);
-    }
+    both::repeats_when_rewound::<Two>();
 }
 
 #[test]
@@ -81,21 +54,7 @@ fn a_step_that_failed_leaves_nothing_behind_in_a_state_put_back() {
 
 #[test]
 fn a_state_in_bytes_continues_in_another_instance_bit_by_bit() {
-    for scene in SCENES {
-        let host = Host::of(scene);
-        // Parameters travel with the state.
-        assert_eq!(host.set(&[host.reference("contact.damping")], &[0.3]), Status::Ok);
-        host.start();
-        run(&host, 0, 55);
-        let bytes = host.serialize(host.save());
-        let expected = run(&host, 55, 20);
-
-        let other = Host::of(scene);
-        let state = other.deserialize(&bytes).unwrap();
-        assert_eq!(other.restore(state), Status::Ok);
-        assert_eq!(run(&other, 55, 20), expected, "{scene}");
-        assert_eq!(other.serialize(state), bytes, "{scene}");
-    }
+    both::continues_from_bytes::<Two>();
 }
 
 #[test]
@@ -136,49 +95,12 @@ fn a_freed_state_is_null_and_cannot_be_used_again() {
 
 #[test]
 fn a_state_passed_where_its_address_belongs_is_freed_and_logged_or_refused() {
-    let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
-    let (keep, state, foreign) = (host.save(), host.save(), other.save());
-    // SAFETY: what is tested: handles, which are no addresses, are not followed.
-    unsafe {
-        // As the program fmusim does it, which stops at any status but OK.
-        assert_eq!(fmi2FreeFMUstate(host.c, state.cast()), Status::Ok);
-        let line = host.lines().pop().unwrap();
-        assert!(line.status == Status::Warning && line.message.contains("it is freed"), "{line:?}");
-        // The run goes on.
-        run(&host, 0, 2);
-        for wrong in [state, foreign] {
-            assert_eq!(fmi2FreeFMUstate(host.c, wrong.cast()), Status::Error);
-            assert_eq!(host.restore(keep), Status::Ok);
-        }
-        let bytes = host.serialize(keep);
-        assert_eq!(fmi2GetFMUstate(host.c, keep.cast()), Status::Error);
-        assert!(host.lines().pop().unwrap().message.contains("not the address"));
-        let (bytes, size) = (bytes.as_ptr().cast(), bytes.len());
-        assert_eq!(fmi2DeSerializeFMUstate(host.c, bytes, size, keep.cast()), Status::Error);
-        assert_eq!(host.restore(keep), Status::Ok);
-    }
-    assert_eq!(other.restore(foreign), Status::Ok);
+    both::frees_a_state_by_value::<Two>();
 }
 
 #[test]
 fn bytes_that_lie_over_the_handle_they_are_to_give_are_refused() {
-    let host = Host::started("er16k-tb1");
-    let state = host.save();
-    let good = host.serialize(state);
-    let mut words = vec![0u64; good.len().div_ceil(8)];
-    for (word, bytes) in words.iter_mut().zip(good.chunks(8)) {
-        let mut eight = [0; 8];
-        eight[..bytes.len()].copy_from_slice(bytes);
-        *word = u64::from_ne_bytes(eight);
-    }
-    // A word of zeros, which would pass for a handle that is NULL.
-    let zero = words.iter().position(|word| *word == 0).unwrap();
-    let before = words.clone();
-    let base = words.as_mut_ptr();
-    // SAFETY: as many bytes as said, with the handle among them, which is what is tested.
-    let status = unsafe { fmi2DeSerializeFMUstate(host.c, base.cast(), good.len(), base.add(zero).cast()) };
-    assert_eq!((status, words), (Status::Error, before));
-    assert!(host.lines().pop().unwrap().message.contains("overlap"));
+    both::refuses_bytes_over_their_handle::<Two>();
 }
 
 #[test]

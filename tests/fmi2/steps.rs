@@ -4,6 +4,7 @@ use crate::two::{Host, Resources};
 use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
 use std::ptr;
+use std::sync::Arc;
 
 #[test]
 fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
@@ -21,8 +22,7 @@ fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
     let host = Host::of("6205-healthy");
     assert_eq!(host.setup(Some(1e-4), -5.0, Some(-4.0)), Status::Ok);
     // A second call takes the place of the first.
-    assert_eq!(host.setup(None, 100.0, None), Status::Ok);
-    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    host.start_at(100.0, None);
     assert_eq!(host.step(100.0, 1e-4), Status::Ok);
 }
 
@@ -30,8 +30,7 @@ fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
 fn a_tolerance_of_the_host_tightens_the_scenes_and_never_loosens_it() {
     let tolerance_after = |given: f64| {
         let host = Host::of("er16k-tb1");
-        assert_eq!(host.setup(Some(given), 0.0, None), Status::Ok);
-        assert_eq!(host.enter(), Status::Ok);
+        assert_eq!(host.begin(Some(given), 0.0, None), Status::Ok);
         host.get(&[host.reference("solver.tolerance")]).unwrap()[0]
     };
     // The scene says 1e-5; 1e-12 is the smallest that may be set.
@@ -46,7 +45,7 @@ fn a_step_that_is_not_above_zero_and_finite_is_an_error() {
     for size in [0.0, -1e-4, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let host = Host::started("6205-healthy");
         assert_eq!(host.step(0.0, size), Status::Error, "{size}");
-        assert!(host.lines().last().unwrap().message.contains("communication step size"));
+        assert!(host.last_message().contains("communication step size"));
     }
 }
 
@@ -64,7 +63,7 @@ fn a_wrong_communication_point_is_an_error_and_a_rounded_one_is_not() {
     for point in [1e-4, -1e-4, 1.0, f64::NAN, f64::INFINITY] {
         let host = Host::started("6205-healthy");
         assert_eq!(host.step(point, 1e-4), Status::Error, "{point}");
-        assert!(host.lines().last().unwrap().message.contains("communication point"));
+        assert!(host.last_message().contains("communication point"));
     }
     let host = Host::started("6205-healthy");
     assert_eq!(host.step(0.0, 1e-3), Status::Ok);
@@ -83,19 +82,27 @@ fn a_step_ends_exactly_where_the_host_computes_it() {
     }
 }
 
-#[test]
-fn a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not() {
-    let host = Host::of("6205-healthy");
-    host.setup(None, 0.0, Some(1e-3));
-    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
-    // Ten added tenths of a millisecond are more than a millisecond by rounding.
-    let mut time = 0.0;
+/// A step past a stop time a millisecond after the start is an error, and one that ends there is not: ten added tenths of
+/// a millisecond are more than a millisecond by rounding.
+fn ends_at_the_stop_time(start: f64) {
+    let host = Host::started_at("6205-healthy", start, Some(start + 1e-3));
+    let mut time = start;
     for _ in 0..10 {
         assert_eq!(host.step(time, 1e-4), Status::Ok, "{:?}", host.lines());
         time += 1e-4;
     }
-    assert_eq!(host.step(time, 1e-4), Status::Error);
-    assert!(host.lines().last().unwrap().message.contains("stop time"));
+    assert_eq!(host.step(time, 1e-4), Status::Error, "{start}");
+    assert!(host.last_message().contains("stop time"));
+}
+
+#[test]
+fn a_step_past_the_stop_time_is_an_error_and_one_that_ends_there_is_not() {
+    ends_at_the_stop_time(0.0);
+}
+
+#[test]
+fn a_whole_step_past_a_late_stop_time_is_an_error() {
+    [1e5, 1e7, 1.7e9].into_iter().for_each(ends_at_the_stop_time);
 }
 
 #[test]
@@ -103,17 +110,14 @@ fn a_step_left_out_or_done_twice_is_an_error_however_late() {
     // 1.7e9 s: a host whose time is that of Unix.
     for start in [-1e3, 0.0, 1e3, 1e5, 1e6, 1e7, 1.7e9] {
         for off in [1e-4, -1e-4, 5e-5, -5e-5, -0.9, 0.9] {
-            let host = Host::of("6205-healthy");
-            assert_eq!(host.setup(None, start, None), Status::Ok);
-            assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+            let host = Host::started_at("6205-healthy", start, None);
             assert_eq!(host.step(start, 1e-4), Status::Ok);
             let point = start + 1e-4;
             assert_eq!(host.step(point + off, 1e-4), Status::Error, "{off} s off at {start} s");
-            assert!(host.lines().last().unwrap().message.contains("communication point"));
+            assert!(host.last_message().contains("communication point"));
             // The host itself adds and multiplies.
             assert_eq!(host.reset(), Status::Ok);
-            assert_eq!(host.setup(None, start, None), Status::Ok);
-            assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+            host.start_at(start, None);
             for n in 0..5 {
                 assert_eq!(host.step(start + f64::from(n) * 1e-4, 1e-4), Status::Ok, "{:?}", host.lines());
             }
@@ -124,9 +128,7 @@ fn a_step_left_out_or_done_twice_is_an_error_however_late() {
 #[test]
 fn a_host_whose_points_drift_away_from_its_steps_is_refused() {
     // Each point half a percent of a step beyond the end of the step before.
-    let host = Host::of("6205-healthy");
-    assert_eq!(host.setup(None, 1e3, None), Status::Ok);
-    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    let host = Host::started_at("6205-healthy", 1e3, None);
     let step = |host: &Host, n: u32| host.step(1e3 + f64::from(n) * 1.005e-4, 1e-4);
     for n in 0..=2 {
         assert_eq!(step(&host, n), Status::Ok, "{:?}", host.lines());
@@ -134,7 +136,7 @@ fn a_host_whose_points_drift_away_from_its_steps_is_refused() {
     // A state that is put back brings the drift along, as bytes too.
     let bytes = host.serialize(host.save());
     assert_eq!(step(&host, 3), Status::Error);
-    assert!(host.lines().last().unwrap().message.contains("all steps since"), "{:?}", host.lines());
+    assert!(host.last_message().contains("all steps since"), "{:?}", host.lines());
     let other = Host::started("6205-healthy");
     let state = other.deserialize(&bytes).unwrap();
     assert_eq!(other.restore(state), Status::Ok);
@@ -142,27 +144,8 @@ fn a_host_whose_points_drift_away_from_its_steps_is_refused() {
 }
 
 #[test]
-fn a_whole_step_past_a_late_stop_time_is_an_error() {
-    for start in [1e5, 1e7, 1.7e9] {
-        let host = Host::of("6205-healthy");
-        let stop = start + 1e-3;
-        assert_eq!(host.setup(None, start, Some(stop)), Status::Ok);
-        assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
-        let mut time = start;
-        for _ in 0..10 {
-            assert_eq!(host.step(time, 1e-4), Status::Ok, "{:?}", host.lines());
-            time += 1e-4;
-        }
-        assert_eq!(host.step(time, 1e-4), Status::Error, "{start}");
-        assert!(host.lines().last().unwrap().message.contains("stop time"));
-    }
-}
-
-#[test]
 fn a_step_shorter_than_time_can_show_is_taken() {
-    let host = Host::of("6205-healthy");
-    assert_eq!(host.setup(None, 1.7e9, None), Status::Ok);
-    assert_eq!((host.enter(), host.exit()), (Status::Ok, Status::Ok));
+    let host = Host::started_at("6205-healthy", 1.7e9, None);
     let angle = host.reference("cage.angle");
     let before = host.get(&[angle, host.reference("cage.speed")]).unwrap();
     // Numbers at Unix time are 2.4e-7 s apart: most of these steps do not move it, but the cage.
@@ -234,18 +217,16 @@ fn status_queries_answer_and_unknown_kinds_are_discarded() {
 
 #[test]
 fn an_enormous_step_ends_after_the_budget_of_integration_steps() {
-    let resources = Resources::of("er16k-tb1");
-    let text = std::fs::read_to_string(resources.directory.join("scene.toml")).unwrap();
-    let text = text.replace("[solver]", "[solver]\nmax_steps = 3000");
+    let few = |text: String| text.replace("[solver]", "[solver]\nmax_steps = 3000");
+    let resources = Arc::new(Resources::edited("er16k-tb1", "resources", few));
     for step in [1e3, 1e15, f64::MAX] {
-        let host = Host::with(Resources::new(&text, None, "resources"), "budget", true);
+        let host = Host::with(Arc::clone(&resources), "budget", true);
         host.start();
         let before = std::time::Instant::now();
         assert_eq!(host.step(0.0, step), Status::Error, "{step}");
         // A few microseconds for each of 3000 integration steps, on a machine that is busy.
         assert!(before.elapsed().as_secs() < 20);
-        let line = host.lines().pop().unwrap();
-        assert!(line.message.contains("3000") || line.message.contains("step"), "{line:?}");
+        assert!(host.last_message().contains("limit solver.max_steps = 3000"), "{step}");
         assert_eq!(host.reset(), Status::Ok);
     }
 }

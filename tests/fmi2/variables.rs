@@ -1,27 +1,18 @@
 //! Reading and setting variables.
 
 use crate::two::Host;
-use brinell::simulation::interface::table::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
 const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
 
-fn start_of(variable: &Variable) -> Option<f64> {
-    match variable.kind {
-        Kind::Real { start, .. } => start,
-        _ => None,
-    }
-}
-
 #[test]
 fn initialization_shows_the_start_values_of_the_table() {
     for scene in SCENES {
-        let host = Host::of(scene);
-        host.setup(None, 0.0, None);
-        assert_eq!(host.enter(), Status::Ok);
+        let host = Host::initializing(scene);
         for variable in host.table() {
-            if let Some(start) = start_of(&variable) {
+            if let Kind::Real { start: Some(start), .. } = variable.kind {
                 assert_eq!(host.get(&[variable.reference]), Ok(vec![start]), "{}", variable.name);
             }
             if let Kind::Enumeration { start, .. } = variable.kind {
@@ -39,8 +30,7 @@ fn what_is_set_is_read_back() {
         (host.reference("shaft.load.y"), host.reference("cage.slip"), host.reference("contact.law"));
     assert_eq!(host.set(&[load, slip], &[-321.0, 0.01]), Status::Ok);
     assert_eq!(host.set_integers(&[law], &[1]), Status::Ok);
-    host.setup(None, 0.0, None);
-    assert_eq!(host.enter(), Status::Ok);
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok);
     assert_eq!(host.get(&[slip, load, slip]), Ok(vec![0.01, -321.0, 0.01]));
     assert_eq!(host.get_integers(&[law]), Ok(vec![1]));
 }
@@ -78,25 +68,13 @@ fn no_variables_with_null_arrays_is_fine() {
 fn null_arrays_with_a_count_are_errors_that_name_the_argument() {
     let host = Host::started("er16k-tb1");
     let state = host.save();
-    let (reference, mut value) = (0u32, 0.0);
-    // SAFETY: one element each, or NULL, which is what is tested.
-    let calls: [(&str, &dyn Fn() -> Status); 4] = unsafe {
-        [
-            ("vr", &|| fmi2GetReal(host.c, ptr::null(), 1, ptr::null_mut::<f64>().wrapping_byte_add(8))),
-            ("value", &|| fmi2GetReal(host.c, &raw const reference, 1, ptr::null_mut())),
-            ("vr", &|| fmi2SetReal(host.c, ptr::null(), 1, &raw const value)),
-            ("value", &|| fmi2SetReal(host.c, &raw const reference, 1, ptr::null())),
-        ]
-    };
-    for (argument, call) in calls {
-        host.lines();
-        assert_eq!(call(), Status::Error);
-        let line = host.lines().remove(0);
-        assert!(line.message.contains(&format!("argument {argument} is NULL")), "{line:?}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
-    value += 1.0;
-    assert_eq!(value, 1.0);
+    let (reference, value) = (&0, &mut 0.0);
+    // SAFETY of all the blocks: one element each, or NULL, which is what is tested.
+    let [vr, of] = ["argument vr is NULL", "argument value is NULL"];
+    host.refuses(state, &[vr], |h| unsafe { fmi2GetReal(h.c, ptr::null(), 1, value) });
+    host.refuses(state, &[of], |h| unsafe { fmi2GetReal(h.c, reference, 1, ptr::null_mut()) });
+    host.refuses(state, &[vr], |h| unsafe { fmi2SetReal(h.c, ptr::null(), 1, value) });
+    host.refuses(state, &[of], |h| unsafe { fmi2SetReal(h.c, reference, 1, ptr::null()) });
 }
 
 #[test]
@@ -104,39 +82,29 @@ fn unknown_references_and_wrong_types_are_errors_that_say_so() {
     let host = Host::started("er16k-tb1");
     let state = host.save();
     let count = host.table().len() as u32;
-    let speed = host.reference("shaft.speed");
-    let steps = host.reference("solver.steps");
-    let mut text: FmiString = ptr::null();
-    let mut flag = 0;
-    let value = c"x".as_ptr();
-    // SAFETY: one element each.
-    let unknown: &str = &format!("is unknown: this model's references are 0 to {}", count - 1);
-    let calls: [(&str, &dyn Fn() -> Status); 13] = unsafe {
-        [
-            (unknown, &|| host.get(&[count]).unwrap_err()),
-            (unknown, &|| host.get(&[speed, u32::MAX]).unwrap_err()),
-            (unknown, &|| host.get_integers(&[count]).unwrap_err()),
-            (unknown, &|| host.set(&[count], &[0.0])),
-            (unknown, &|| host.set_integers(&[count], &[0])),
-            (unknown, &|| fmi2GetBoolean(host.c, &raw const count, 1, (&raw const flag).cast_mut())),
-            (unknown, &|| fmi2GetString(host.c, &raw const count, 1, (&raw const text).cast_mut())),
-            ("not of type Real", &|| host.get(&[steps]).unwrap_err()),
-            ("not of type Integer", &|| host.get_integers(&[speed]).unwrap_err()),
-            ("not of type Boolean", &|| fmi2GetBoolean(host.c, &raw const speed, 1, (&raw const flag).cast_mut())),
-            ("not of type Boolean", &|| fmi2SetBoolean(host.c, &raw const speed, 1, &raw const flag)),
-            ("not of type String", &|| fmi2GetString(host.c, &raw const speed, 1, (&raw const text).cast_mut())),
-            ("not of type String", &|| fmi2SetString(host.c, &raw const speed, 1, &raw const value)),
-        ]
+    let [speed, steps] = ["shaft.speed", "solver.steps"].map(|name| host.reference(name));
+    let (mut flag, mut text, value) = (0, ptr::null(), c"x".as_ptr());
+    let (flag, text) = (&raw mut flag, &raw mut text);
+    let unknown = |call: &dyn Fn(&Host) -> Status| {
+        host.refuses(state, &[&format!("is unknown: this model's references are 0 to {}", count - 1)], call);
     };
-    for (words, call) in calls {
-        host.lines();
-        assert_eq!(call(), Status::Error);
-        let line = host.lines().remove(0);
-        assert!(line.message.contains(words), "{words}: {line:?}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
-    (text, flag) = (ptr::null(), flag + 1);
-    assert!(text.is_null() && flag == 1);
+    let mistyped = |kind: &str, call: &dyn Fn(&Host) -> Status| {
+        host.refuses(state, &[&format!("not of type {kind}")], call);
+    };
+    // SAFETY of all the blocks: one element each.
+    unknown(&|h| h.get(&[count]).unwrap_err());
+    unknown(&|h| h.get(&[speed, u32::MAX]).unwrap_err());
+    unknown(&|h| h.get_integers(&[count]).unwrap_err());
+    unknown(&|h| h.set(&[count], &[0.0]));
+    unknown(&|h| h.set_integers(&[count], &[0]));
+    unknown(&|h| unsafe { fmi2GetBoolean(h.c, &count, 1, flag) });
+    unknown(&|h| unsafe { fmi2GetString(h.c, &count, 1, text) });
+    mistyped("Real", &|h| h.get(&[steps]).unwrap_err());
+    mistyped("Integer", &|h| h.get_integers(&[speed]).unwrap_err());
+    mistyped("Boolean", &|h| unsafe { fmi2GetBoolean(h.c, &speed, 1, flag) });
+    mistyped("Boolean", &|h| unsafe { fmi2SetBoolean(h.c, &speed, 1, flag) });
+    mistyped("String", &|h| unsafe { fmi2GetString(h.c, &speed, 1, text) });
+    mistyped("String", &|h| unsafe { fmi2SetString(h.c, &speed, 1, &value) });
 }
 
 #[test]
@@ -202,20 +170,10 @@ fn misaligned_overlapping_and_absurdly_long_arrays_are_refused() {
     let state = host.save();
     let mut words = [0u32; 16];
     let base = words.as_mut_ptr();
-    // SAFETY: these arguments break the contract in ways that are refused before memory is touched.
-    let calls: [(&str, &dyn Fn() -> Status); 4] = unsafe {
-        [
-            ("aligned", &|| fmi2GetReal(host.c, base.byte_add(1), 1, base.add(8).cast())),
-            ("overlap", &|| fmi2GetReal(host.c, base, 4, base.add(2).cast())),
-            ("elements", &|| fmi2SetReal(host.c, base, usize::MAX, base.add(8).cast())),
-            ("elements", &|| fmi2SetReal(host.c, base, 1 << 40, base.add(8).cast())),
-        ]
-    };
-    for (word, call) in calls {
-        host.lines();
-        assert_eq!(call(), Status::Error);
-        let line = host.lines().remove(0);
-        assert!(line.message.contains(word), "{line:?}");
-        assert_eq!(host.restore(state), Status::Ok);
-    }
+    let (odd, third, ninth) = (base.wrapping_byte_add(1), base.wrapping_add(2).cast(), base.wrapping_add(8).cast());
+    // SAFETY of all the blocks: broken contracts are refused before memory is touched.
+    host.refuses(state, &["aligned"], |h| unsafe { fmi2GetReal(h.c, odd, 1, ninth) });
+    host.refuses(state, &["overlap"], |h| unsafe { fmi2GetReal(h.c, base, 4, third) });
+    host.refuses(state, &["elements"], |h| unsafe { fmi2SetReal(h.c, base, usize::MAX, ninth) });
+    host.refuses(state, &["elements"], |h| unsafe { fmi2SetReal(h.c, base, 1 << 40, ninth) });
 }

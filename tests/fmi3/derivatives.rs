@@ -1,35 +1,12 @@
 //! Derivatives and dependencies under FMI 3.0.
 
-use crate::three::Host;
-use crate::two;
-use crate::two::bits;
+use crate::three::{Derivative, Host, product};
+use crate::two::any_host::is_real;
+use crate::two::{self, bits};
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi3::*;
 
 const SCENES: [&str; 4] = ["6205-hosted", "er16k-tb1", "er16k-tb1-hosted-shaft", "er16k-turning-outer"];
-
-type Derivative =
-    unsafe extern "C" fn(Instance, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
-
-fn product(host: &Host, function: Derivative, of: [&[u32]; 2], seed: &[f64], count: usize) -> Result<Vec<f64>, Status> {
-    let mut values = vec![f64::NAN; count];
-    let [unknowns, knowns] = of;
-    // SAFETY: the arrays are as long as said.
-    let status = unsafe {
-        function(
-            host.c,
-            unknowns.as_ptr(),
-            unknowns.len(),
-            knowns.as_ptr(),
-            knowns.len(),
-            seed.as_ptr(),
-            seed.len(),
-            values.as_mut_ptr(),
-            count,
-        )
-    };
-    if status == Status::Ok { Ok(values) } else { Err(status) }
-}
 
 /// Inputs; outputs with arrays by their first reference, and the number of their values.
 fn knowns_and_unknowns(host: &Host) -> (Vec<u32>, Vec<u32>, usize) {
@@ -37,8 +14,7 @@ fn knowns_and_unknowns(host: &Host) -> (Vec<u32>, Vec<u32>, usize) {
     let knowns = table.iter().filter(|row| row.causality == Causality::Input).map(|row| row.reference).collect();
     let is_output = |reference: &u32| table[*reference as usize].causality == Causality::Output;
     let unknowns = host.reals().0.into_iter().filter(is_output).collect();
-    let is_real = |kind: &Kind| matches!(kind, Kind::Real { .. });
-    let count = table.iter().filter(|row| row.causality == Causality::Output && is_real(&row.kind)).count();
+    let count = table.iter().filter(|row| row.causality == Causality::Output && is_real(row)).count();
     (knowns, unknowns, count)
 }
 
@@ -68,7 +44,7 @@ fn directional_derivatives_are_central_differences_and_arrays_give_all_their_ele
             let Kind::Real { nominal, .. } = host.table()[known as usize].kind else { panic!() };
             // Small against what the contacts' curvature shows, large against rounding.
             let step = 1e-6 * nominal;
-            let given = product(&host, fmi3GetDirectionalDerivative, [&unknowns, &[known]], &[1.0], count).unwrap();
+            let given = host.directional([&unknowns, &[known]], &[1.0], count).unwrap();
             let at = host.get(&[known]).unwrap()[0];
             let look = |value: f64| {
                 assert_eq!(host.set(&[known], &[value]), Status::Ok);
@@ -96,14 +72,14 @@ fn adjoint_derivatives_are_the_transposed_product_of_directional_ones() {
         let adjoint = product(&host, fmi3GetAdjointDerivative, [&unknowns, &knowns], &seed, knowns.len()).unwrap();
         // wᵀ(J v) = (wᵀJ) v for a second seed as well.
         let other: Vec<f64> = (0..knowns.len()).map(|i| (i as f64 * 1.3).cos()).collect();
-        let directional = product(&host, fmi3GetDirectionalDerivative, [&unknowns, &knowns], &other, count).unwrap();
+        let directional = host.directional([&unknowns, &knowns], &other, count).unwrap();
         let [left, right]: [f64; 2] =
             [(&seed, &directional), (&adjoint, &other)].map(|(a, b)| a.iter().zip(b).map(|(a, b)| a * b).sum());
         let size: f64 = seed.iter().zip(&directional).map(|(a, b)| (a * b).abs()).sum();
         // Roundings of a sum of some sixty products, and of changes that were added up in another order.
         assert!((left - right).abs() <= 1e-12 * size, "{scene}: {left} against {right}");
         for (k, &known) in knowns.iter().enumerate() {
-            let column = product(&host, fmi3GetDirectionalDerivative, [&unknowns, &[known]], &[1.0], count).unwrap();
+            let column = host.directional([&unknowns, &[known]], &[1.0], count).unwrap();
             let sum: f64 = column.iter().zip(&seed).map(|(derivative, weight)| weight * derivative).sum();
             assert_eq!(sum.to_bits(), adjoint[k].to_bits(), "{scene}");
         }
@@ -113,10 +89,7 @@ fn adjoint_derivatives_are_the_transposed_product_of_directional_ones() {
 #[test]
 fn derivatives_by_parameters_in_initialization_mode_have_the_bits_of_fmi_2_either_way() {
     for scene in ["er16k-tb1", "er16k-turning-outer"] {
-        let (host, other) = (Host::of(scene), two::Host::of(scene));
-        assert_eq!(host.enter(None, 0.0, None), Status::Ok);
-        assert_eq!(other.setup(None, 0.0, None), Status::Ok);
-        assert_eq!(other.enter(), Status::Ok);
+        let (host, other) = (Host::initializing(scene), two::Host::initializing(scene));
         let (_, unknowns, count) = knowns_and_unknowns(&host);
         let listed: Vec<u32> = dependencies(&host, host.reference("shaft.stiffness.yy")).iter().map(|d| d.1).collect();
         let parameters = host.table().iter().filter(|row| row.causality == Causality::Parameter);
@@ -125,21 +98,15 @@ fn derivatives_by_parameters_in_initialization_mode_have_the_bits_of_fmi_2_eithe
             let known = [row.reference];
             if !matches!(row.kind, Kind::Real { .. }) {
                 let of = [&unknowns[..], &known];
-                assert_eq!(product(&host, fmi3GetDirectionalDerivative, of, &[1.0], count), Err(Status::Discard));
+                assert_eq!(host.directional(of, &[1.0], count), Err(Status::Discard));
                 continue;
             }
-            let column = product(&host, fmi3GetDirectionalDerivative, [&unknowns, &known], &[1.0], count).unwrap();
+            let column = host.directional([&unknowns, &known], &[1.0], count).unwrap();
             let adjoint = product(&host, fmi3GetAdjointDerivative, [&unknowns, &known], &vec![1.0; count], 1).unwrap();
             assert_eq!(adjoint[0].to_bits(), column.iter().sum::<f64>().to_bits(), "{}", row.name);
             let y = host.reference("shaft.stiffness.yy");
-            let one = product(&host, fmi3GetDirectionalDerivative, [&[y], &known], &[1.0], 1).unwrap();
-            let (of, mut two) = (other.reference("shaft.stiffness.yy"), [f64::NAN]);
-            // SAFETY: one element each.
-            let status = unsafe {
-                let (of, known) = (&raw const of, known.as_ptr());
-                brinell_fmi::fmi2::fmi2GetDirectionalDerivative(other.c, of, 1, known, 1, &1.0, two.as_mut_ptr())
-            };
-            assert_eq!(status, Status::Ok, "{}", row.name);
+            let one = host.directional([&[y], &known], &[1.0], 1).unwrap();
+            let two = other.directional(&[other.reference("shaft.stiffness.yy")], &known, &[1.0]).unwrap();
             assert_eq!(bits(&one), bits(&two), "{}", row.name);
             compared += 1;
         }
@@ -153,21 +120,11 @@ fn derivatives_have_the_bits_of_fmi_2_and_asking_for_them_changes_nothing() {
         let (host, other) = somewhere(scene);
         let (knowns, unknowns, count) = knowns_and_unknowns(&host);
         let seed = vec![0.5; knowns.len()];
-        product(&host, fmi3GetDirectionalDerivative, [&unknowns, &knowns], &seed, count).unwrap();
+        host.directional([&unknowns, &knowns], &seed, count).unwrap();
         product(&host, fmi3GetAdjointDerivative, [&unknowns, &knowns], &vec![1.0; count], knowns.len()).unwrap();
-        let path = [host.reference("element.path")];
-        let (orders, mut rates) = ([1], [f64::NAN; 9]);
-        // SAFETY: the arrays are as long as said.
-        unsafe {
-            let status = fmi3GetOutputDerivatives(host.c, path.as_ptr(), 1, orders.as_ptr(), rates.as_mut_ptr(), 9);
-            assert_eq!(status, Status::Ok, "{:?}", host.lines());
-            for (j, &rate) in (1..=9).zip(&rates) {
-                let row = other.reference(&format!("element[{j}].path"));
-                let mut expected = f64::NAN;
-                let status = brinell_fmi::fmi2::fmi2GetRealOutputDerivatives(other.c, &row, 1, &1, &raw mut expected);
-                assert_eq!((status, rate.to_bits()), (Status::Ok, expected.to_bits()), "{scene} {j}");
-            }
-        }
+        let rates = host.by_time(&[host.reference("element.path")], 9).unwrap();
+        let paths = (1..=9).map(|j| other.reference(&format!("element[{j}].path"))).collect::<Vec<_>>();
+        assert_eq!(bits(&rates), bits(&other.by_time(&paths, 1).unwrap()), "{scene}");
         host.step(13.0 * 1e-4, 1e-4);
         assert_eq!(other.step(13.0 * 1e-4, 1e-4), Status::Ok);
         let y = host.reference("shaft.force.y");
@@ -237,7 +194,7 @@ fn dependencies_are_those_of_every_element_before_and_after_initialization() {
     // What is not listed does not move the output.
     let inputs = host.table().iter().filter(|row| row.causality == Causality::Input);
     for input in inputs.filter(|row| direct.iter().all(|found| found.1 != row.reference)) {
-        let given = product(&host, fmi3GetDirectionalDerivative, [&[force], &[input.reference]], &[1.0], 9).unwrap();
+        let given = host.directional([&[force], &[input.reference]], &[1.0], 9).unwrap();
         assert_eq!(given, [0.0; 9], "{}", input.name);
     }
     // SAFETY: a wrong count, with no arrays.

@@ -2,22 +2,14 @@
 //! exported functions as methods.
 
 pub(crate) use crate::two::Resources;
+use crate::two::any_host::{self, Functions, Line, Of, Version, is_real};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::of_all_elements;
-use brinell::simulation::interface::table::Variable;
 use brinell_fmi::fmi3::*;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString};
+use std::ptr;
 use std::sync::Arc;
-use std::{fs, ptr};
-
-/// One call of the logger.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Line {
-    pub(crate) status: Status,
-    pub(crate) category: String,
-    pub(crate) message: String,
-}
 
 /// What the FMU says in an intermediate update.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +45,8 @@ unsafe extern "C-unwind" fn remember(
         (&*environment.cast::<Environment>(), [category, message].map(text))
     };
     let [category, message] = texts;
-    environment.lines.borrow_mut().push(Line { status, category, message });
+    let (instance, format) = (String::new(), String::new());
+    environment.lines.borrow_mut().push(Line { instance, status, category, format, message });
 }
 
 unsafe extern "C-unwind" fn update(
@@ -86,6 +79,8 @@ pub(crate) struct Call<'a> {
     pub(crate) name: Option<&'a str>,
     pub(crate) token: Option<&'a str>,
     pub(crate) path: Option<&'a str>,
+    /// `fmi3InstantiateModelExchange`, which takes nothing of what follows but the logging.
+    pub(crate) model_exchange: bool,
     pub(crate) logging: bool,
     pub(crate) event_mode: bool,
     pub(crate) early_return: bool,
@@ -93,28 +88,51 @@ pub(crate) struct Call<'a> {
     pub(crate) on_update: Option<OnUpdate>,
 }
 
-impl Call<'_> {
+impl<'a> Call<'a> {
+    /// One that nothing is wrong with, and asks for nothing.
+    pub(crate) fn good(token: &'a str, path: &'a str) -> Self {
+        Self {
+            name: Some("instance 1"),
+            token: Some(token),
+            path: Some(path),
+            model_exchange: false,
+            logging: false,
+            event_mode: false,
+            early_return: false,
+            required: &[],
+            on_update: None,
+        }
+    }
+
     pub(crate) fn make(self) -> (Instance, Box<Environment>) {
         let callback = self.on_update.as_ref().map(|_| update as IntermediateUpdateCallback);
         let environment = Box::new(Environment { on_update: RefCell::new(self.on_update), ..Environment::default() });
         let texts = [self.name, self.token, self.path].map(|text| text.map(|text| CString::new(text).unwrap()));
         let [name, token, path] = texts.each_ref().map(|text| text.as_ref().map_or(ptr::null(), |text| text.as_ptr()));
+        let (own, logging) = (ptr::from_ref(&*environment).cast_mut().cast(), self.logging.into());
+        let (event_mode, early_return) = (self.event_mode.into(), self.early_return.into());
+        let (list, count) = (self.required.as_ptr(), self.required.len());
+        let log = Some(remember as LogMessageCallback);
         // SAFETY: strings end in NUL, the list is as long as said; the environment lives as long as the instance.
         let instance = unsafe {
-            fmi3InstantiateCoSimulation(
-                name,
-                token,
-                path,
-                FALSE,
-                self.logging.into(),
-                self.event_mode.into(),
-                self.early_return.into(),
-                self.required.as_ptr(),
-                self.required.len(),
-                ptr::from_ref(&*environment).cast_mut().cast(),
-                Some(remember),
-                callback,
-            )
+            if self.model_exchange {
+                fmi3InstantiateModelExchange(name, token, path, FALSE, logging, own, log)
+            } else {
+                fmi3InstantiateCoSimulation(
+                    name,
+                    token,
+                    path,
+                    FALSE,
+                    logging,
+                    event_mode,
+                    early_return,
+                    list,
+                    count,
+                    own,
+                    log,
+                    callback,
+                )
+            }
         };
         environment.instance.set(Some(instance));
         (instance, environment)
@@ -128,99 +146,99 @@ impl Environment {
     }
 }
 
-/// An instance and its host.
-pub(crate) struct Host {
-    pub(crate) c: Instance,
-    pub(crate) environment: Box<Environment>,
-    pub(crate) resources: Arc<Resources>,
-    simulation: Simulation,
-}
-
 /// What `fmi3DoStep` gives beside its status: event handling, termination, early return, time.
 pub(crate) type Stepped = (bool, bool, bool, f64);
 
-impl Host {
-    /// An instance of a shipped scene, logging on.
-    pub(crate) fn of(scene: &str) -> Self {
-        Self::with(Resources::of(scene), "instance 1", &[], None)
+/// FMI 3.0.
+pub(crate) struct Three;
+
+/// An instance and its host.
+pub(crate) type Host = any_host::Host<Three>;
+
+impl Version for Three {
+    type Log = Environment;
+    type Byte = u8;
+    const FUNCTIONS: Functions<u8> = Functions {
+        free: fmi3FreeInstance,
+        exit: fmi3ExitInitializationMode,
+        terminate: fmi3Terminate,
+        reset: fmi3Reset,
+        get_state: fmi3GetFMUState,
+        set_state: fmi3SetFMUState,
+        free_state: fmi3FreeFMUState,
+        state_size: fmi3SerializedFMUStateSize,
+        serialize: fmi3SerializeFMUState,
+        deserialize: fmi3DeserializeFMUState,
+    };
+
+    fn lines(environment: &Environment) -> Vec<Line> {
+        environment.take()
     }
 
-    /// An instance at its first communication point.
-    pub(crate) fn started(scene: &str) -> Self {
-        let host = Self::of(scene);
-        host.start();
-        host
+    fn make(resources: Arc<Resources>, name: &str, logging: bool) -> (Instance, Box<Environment>) {
+        let path = resources.directory.to_str().unwrap();
+        Call { name: Some(name), logging, early_return: true, ..Call::good(&resources.guid, path) }.make()
     }
 
-    /// An instance that has intermediate updates with these variables and can handle an early return.
-    pub(crate) fn updated(scene: &str, required: &[&str], on_update: OnUpdate) -> Self {
-        let resources = Resources::of(scene);
-        let simulation = simulation_of(&resources);
-        let required: Vec<u32> = required.iter().map(|name| reference(&simulation, name)).collect();
-        let host = Self::with(resources, "instance 1", &required, Some(on_update));
-        host.start();
-        host
-    }
-
-    pub(crate) fn with(
-        resources: impl Into<Arc<Resources>>,
-        name: &str,
-        required: &[u32],
-        on_update: Option<OnUpdate>,
-    ) -> Self {
-        let resources = resources.into();
-        let path = format!("{}/", resources.directory.to_str().unwrap());
-        let call = Call {
-            name: Some(name),
-            token: Some(&resources.guid),
-            path: Some(&path),
-            logging: true,
-            event_mode: false,
-            early_return: true,
-            required,
-            on_update,
-        };
-        let (c, environment) = call.make();
-        assert!(!c.is_null(), "{:?}", environment.take());
-        let simulation = simulation_of(&resources);
-        Self { c, environment, resources, simulation }
-    }
-
-    /// From instantiated to the first communication point at 0 s.
-    pub(crate) fn start(&self) {
-        assert_eq!(self.enter(None, 0.0, None), Status::Ok, "{:?}", self.lines());
-        assert_eq!(self.exit(), Status::Ok, "{:?}", self.lines());
-    }
-
-    pub(crate) fn lines(&self) -> Vec<Line> {
-        self.environment.take()
-    }
-
-    pub(crate) fn last_message(&self) -> String {
-        self.lines().pop().map(|line| line.message).unwrap_or_default()
-    }
-
-    pub(crate) fn enter(&self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
+    fn begin(host: &Host, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
         let flag = |value: Option<f64>| Bool::from(value.is_some());
         let (tolerance_given, stop_given) = (flag(tolerance), flag(stop));
         let (tolerance, stop) = (tolerance.unwrap_or(f64::NAN), stop.unwrap_or(f64::NAN));
         // SAFETY: no pointers but the handle.
-        unsafe { fmi3EnterInitializationMode(self.c, tolerance_given, tolerance, start, stop_given, stop) }
+        unsafe { fmi3EnterInitializationMode(host.c, tolerance_given, tolerance, start, stop_given, stop) }
     }
 
-    pub(crate) fn exit(&self) -> Status {
-        // SAFETY: no pointers but the handle.
-        unsafe { fmi3ExitInitializationMode(self.c) }
+    fn step(host: &Host, point: f64, size: f64) -> Status {
+        host.do_step(point, size).err().unwrap_or(Status::Ok)
     }
 
-    pub(crate) fn terminate(&self) -> Status {
-        // SAFETY: no pointers but the handle.
-        unsafe { fmi3Terminate(self.c) }
+    fn get(c: Instance, references: &[u32], values: &mut [f64]) -> Status {
+        // SAFETY: the arrays are as long as said.
+        unsafe { fmi3GetFloat64(c, references.as_ptr(), references.len(), values.as_mut_ptr(), values.len()) }
     }
 
-    pub(crate) fn reset(&self) -> Status {
-        // SAFETY: no pointers but the handle.
-        unsafe { fmi3Reset(self.c) }
+    fn set(c: Instance, references: &[u32], values: &[f64]) -> Status {
+        // SAFETY: the arrays are as long as said.
+        unsafe { fmi3SetFloat64(c, references.as_ptr(), references.len(), values.as_ptr(), values.len()) }
+    }
+
+    /// Arrays by the reference of their first element.
+    fn reals(simulation: &Simulation) -> (Vec<u32>, usize) {
+        let arrays = simulation.arrays();
+        let real = simulation.table().iter().filter(|row| is_real(row));
+        let rows: Vec<u32> = real.map(|row| row.reference).collect();
+        let is_shown = |row: &u32| arrays.iter().all(|array| array.rows[0] == *row || !array.rows.contains(row));
+        (rows.iter().copied().filter(is_shown).collect(), rows.len())
+    }
+
+    /// By its name in FMI 3.0.
+    fn reference(simulation: &Simulation, name: &str) -> u32 {
+        if name == "time" {
+            return simulation.table().len() as u32;
+        }
+        let arrays = simulation.arrays();
+        let array = arrays
+            .iter()
+            .map(|array| array.rows[0])
+            .find(|&first| of_all_elements(&simulation.table()[first as usize]).0 == name);
+        array.unwrap_or_else(|| simulation.reference(name).unwrap())
+    }
+}
+
+impl Host {
+    /// An instance that has intermediate updates with these variables and can handle an early return.
+    pub(crate) fn updated(scene: &str, required: &[u32], on_update: OnUpdate) -> Self {
+        let host = Self::updated_with(Resources::of(scene), required, on_update);
+        host.start();
+        host
+    }
+
+    /// The same of given resources, before it is started.
+    pub(crate) fn updated_with(resources: Resources, required: &[u32], on_update: OnUpdate) -> Self {
+        let path = resources.directory.to_str().unwrap();
+        let call = Call { required, on_update: Some(on_update), ..Call::good(&resources.guid, path) };
+        let parts = Call { logging: true, early_return: true, ..call }.make();
+        Self::of_parts(parts, resources.into())
     }
 
     pub(crate) fn do_step(&self, point: f64, size: f64) -> Result<Stepped, Status> {
@@ -230,10 +248,7 @@ impl Host {
             let pointers = (&raw mut event, &raw mut terminate, &raw mut early, &raw mut time);
             fmi3DoStep(self.c, point, size, TRUE, pointers.0, pointers.1, pointers.2, pointers.3)
         };
-        match status {
-            Status::Ok => Ok((event != FALSE, terminate != FALSE, early != FALSE, time)),
-            status => Err(status),
-        }
+        status.of((event != FALSE, terminate != FALSE, early != FALSE, time))
     }
 
     /// A step that ends where it should.
@@ -242,134 +257,56 @@ impl Host {
         assert_eq!(stepped, Ok((false, false, false, point + size)), "{:?}", self.lines());
     }
 
-    /// Reads `count` values behind references.
-    pub(crate) fn get_values(&self, references: &[u32], count: usize) -> Result<Vec<f64>, Status> {
-        get(self.c, references, count)
-    }
-
-    /// Reads scalars.
-    pub(crate) fn get(&self, references: &[u32]) -> Result<Vec<f64>, Status> {
-        self.get_values(references, references.len())
-    }
-
     /// Reads all elements of an array.
     pub(crate) fn array(&self, name: &str) -> Result<Vec<f64>, Status> {
-        self.get_values(&[self.reference(name)], self.simulation.scene().bearing.element_count)
-    }
-
-    pub(crate) fn set(&self, references: &[u32], values: &[f64]) -> Status {
-        set(self.c, references, values)
-    }
-
-    pub(crate) fn save(&self) -> FmuState {
-        let mut state = ptr::null_mut();
-        // SAFETY: `state` is NULL, as the first call wants it.
-        assert_eq!(unsafe { fmi3GetFMUState(self.c, &raw mut state) }, Status::Ok, "{:?}", self.lines());
-        state
-    }
-
-    pub(crate) fn restore(&self, state: FmuState) -> Status {
-        // SAFETY: any handle may be passed.
-        unsafe { fmi3SetFMUState(self.c, state) }
-    }
-
-    pub(crate) fn free(&self, mut state: FmuState) -> Status {
-        // SAFETY: any handle may be passed.
-        unsafe { fmi3FreeFMUState(self.c, &raw mut state) }
-    }
-
-    pub(crate) fn serialize(&self, state: FmuState) -> Vec<u8> {
-        let mut size = 0;
-        // SAFETY: `size` may be written.
-        assert_eq!(unsafe { fmi3SerializedFMUStateSize(self.c, state, &raw mut size) }, Status::Ok);
-        let mut bytes = vec![0u8; size];
-        // SAFETY: the buffer has the size said.
-        assert_eq!(unsafe { fmi3SerializeFMUState(self.c, state, bytes.as_mut_ptr(), size) }, Status::Ok);
-        bytes
-    }
-
-    pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<FmuState, Status> {
-        let mut state = ptr::null_mut();
-        // SAFETY: the bytes are as many as said, `state` is NULL.
-        match unsafe { fmi3DeserializeFMUState(self.c, bytes.as_ptr(), bytes.len(), &raw mut state) } {
-            Status::Ok => Ok(state),
-            status => Err(status),
-        }
-    }
-
-    /// The value reference of a variable by its name in FMI 3.0.
-    pub(crate) fn reference(&self, name: &str) -> u32 {
-        reference(&self.simulation, name)
-    }
-
-    pub(crate) fn simulation(&self) -> &Simulation {
-        &self.simulation
-    }
-
-    pub(crate) fn table(&self) -> &[Variable] {
-        self.simulation.table()
+        self.get_values(&[self.reference(name)], self.simulation().scene().bearing.element_count)
     }
 
     /// References of all real variables, arrays by that of their first element, and the number of their values.
     pub(crate) fn reals(&self) -> (Vec<u32>, usize) {
-        reals(&self.simulation)
+        Three::reals(self.simulation())
     }
 
-    /// All real values.
-    pub(crate) fn all(&self) -> Vec<f64> {
-        let (references, count) = self.reals();
-        self.get_values(&references, count).unwrap()
+    /// Derivatives of as many values behind `unknowns` by knowns, times a seed.
+    pub(crate) fn directional(&self, of: [&[u32]; 2], seed: &[f64], count: usize) -> Result<Vec<f64>, Status> {
+        product(self, fmi3GetDirectionalDerivative, of, seed, count)
+    }
+
+    /// Derivatives of as many outputs by time.
+    pub(crate) fn by_time(&self, unknowns: &[u32], count: usize) -> Result<Vec<f64>, Status> {
+        let (orders, mut values) = (vec![1; unknowns.len()], vec![f64::NAN; count]);
+        let (of, into) = (unknowns.as_ptr(), values.as_mut_ptr());
+        // SAFETY: the arrays are as long as said.
+        unsafe { fmi3GetOutputDerivatives(self.c, of, unknowns.len(), orders.as_ptr(), into, count) }.of(values)
     }
 }
 
-/// References of all real variables, and the number of their values.
-pub(crate) fn reals(simulation: &Simulation) -> (Vec<u32>, usize) {
-    use brinell::simulation::interface::table::Kind;
-    let arrays = simulation.arrays();
-    let is_real = |row: &&Variable| matches!(row.kind, Kind::Real { .. });
-    let rows: Vec<u32> = simulation.table().iter().filter(is_real).map(|row| row.reference).collect();
-    let is_shown = |row: &u32| arrays.iter().all(|array| array.rows[0] == *row || !array.rows.contains(row));
-    (rows.iter().copied().filter(is_shown).collect(), rows.len())
+/// `fmi3GetDirectionalDerivative` or `fmi3GetAdjointDerivative`.
+pub(crate) type Derivative =
+    unsafe extern "C" fn(Instance, *const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize) -> Status;
+
+/// What it gives for unknowns, knowns and a seed.
+pub(crate) fn product(
+    host: &Host,
+    function: Derivative,
+    [unknowns, knowns]: [&[u32]; 2],
+    seed: &[f64],
+    count: usize,
+) -> Result<Vec<f64>, Status> {
+    let mut values = vec![f64::NAN; count];
+    let (of, by, into) = (unknowns.as_ptr(), knowns.as_ptr(), values.as_mut_ptr());
+    let (rows, columns) = (unknowns.len(), knowns.len());
+    // SAFETY: the arrays are as long as said.
+    unsafe { function(host.c, of, rows, by, columns, seed.as_ptr(), seed.len(), into, count) }.of(values)
 }
 
-/// The value reference of a variable by its name in FMI 3.0.
-pub(crate) fn reference(simulation: &Simulation, name: &str) -> u32 {
-    if name == "time" {
-        return simulation.table().len() as u32;
-    }
-    let arrays = simulation.arrays();
-    let array = arrays
-        .iter()
-        .map(|array| array.rows[0])
-        .find(|&first| of_all_elements(&simulation.table()[first as usize]).0 == name);
-    array.unwrap_or_else(|| simulation.reference(name).unwrap())
-}
-
-pub(crate) fn simulation_of(resources: &Resources) -> Simulation {
-    let text = fs::read_to_string(resources.directory.join("scene.toml")).unwrap();
-    let scene = brinell_scene_file::from_toml(&text).unwrap();
-    let read = |file: &str| fs::read_to_string(resources.directory.join(file)).unwrap();
-    let profiles: Vec<String> = scene.profile_names().into_iter().map(read).collect();
-    Simulation::new(scene, profiles.iter().map(String::as_str)).unwrap()
-}
-
+/// Reads `count` values by a handle, as in an update.
 pub(crate) fn get(c: Instance, references: &[u32], count: usize) -> Result<Vec<f64>, Status> {
     let mut values = vec![f64::NAN; count];
-    // SAFETY: the arrays are as long as said.
-    match unsafe { fmi3GetFloat64(c, references.as_ptr(), references.len(), values.as_mut_ptr(), count) } {
-        Status::Ok => Ok(values),
-        status => Err(status),
-    }
+    Three::get(c, references, &mut values).of(values)
 }
 
+/// Sets values by a handle.
 pub(crate) fn set(c: Instance, references: &[u32], values: &[f64]) -> Status {
-    // SAFETY: the arrays are as long as said.
-    unsafe { fmi3SetFloat64(c, references.as_ptr(), references.len(), values.as_ptr(), values.len()) }
-}
-
-impl Drop for Host {
-    fn drop(&mut self) {
-        // SAFETY: any handle may be passed, also one that a test has freed.
-        unsafe { fmi3FreeInstance(self.c) };
-    }
+    Three::set(c, references, values)
 }

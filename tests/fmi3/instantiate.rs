@@ -1,22 +1,10 @@
 //! How an instance comes to be, and what a logger hears of it.
 
-use crate::three::{Call, Host, Resources};
+use crate::three::{Call, Host};
+use crate::two::Resources;
 use brinell_fmi::fmi3::*;
 use std::ffi::CStr;
 use std::ptr;
-
-fn call<'a>(resources: &'a Resources, path: &'a str) -> Call<'a> {
-    Call {
-        name: Some("instance 1"),
-        token: Some(&resources.guid),
-        path: Some(path),
-        logging: false,
-        event_mode: false,
-        early_return: false,
-        required: &[],
-        on_update: None,
-    }
-}
 
 /// What the logger hears of an instantiation that fails.
 fn refusal(call: Call<'_>) -> String {
@@ -41,7 +29,7 @@ fn whatever_keeps_an_instance_from_being_made_is_told_though_logging_is_off() {
     let resources = Resources::of("6205-healthy");
     let path = resources.directory.to_str().unwrap();
     let refused = |edit: &dyn Fn(&mut Call<'_>), word: &str| {
-        let mut call = call(&resources, path);
+        let mut call = Call::good(&resources.guid, path);
         edit(&mut call);
         let said = refusal(call);
         assert!(said.contains(word), "{said}");
@@ -63,7 +51,7 @@ fn a_path_is_taken_with_and_without_its_separator_and_with_odd_names() {
     let resources = Resources::named("6205-healthy", "a b+c%20 Wälz");
     for end in ["", "/"] {
         let path = format!("{}{end}", resources.directory.to_str().unwrap());
-        let (instance, environment) = call(&resources, &path).make();
+        let (instance, environment) = Call::good(&resources.guid, &path).make();
         assert!(!instance.is_null(), "{:?}", environment.take());
         // SAFETY: a living instance.
         unsafe { fmi3FreeInstance(instance) };
@@ -85,7 +73,8 @@ fn only_inputs_and_outputs_may_be_asked_for_in_intermediate_updates() {
         ("time", false),
     ] {
         let required = [host.reference(name)];
-        let wanted = Call { required: &required, on_update: Some(Box::new(|_| None)), ..call(resources, path) };
+        let wanted =
+            Call { required: &required, on_update: Some(Box::new(|_| None)), ..Call::good(&resources.guid, path) };
         let (instance, environment) = wanted.make();
         assert_eq!(!instance.is_null(), possible, "{name}: {:?}", environment.take());
         // SAFETY: a living instance, or NULL.
@@ -94,7 +83,7 @@ fn only_inputs_and_outputs_may_be_asked_for_in_intermediate_updates() {
     // An element that is not the array's first has no reference.
     let hidden = [host.simulation().reference("element[2].path").unwrap()];
     assert!(
-        refusal(Call { required: &hidden, on_update: Some(Box::new(|_| None)), ..call(resources, path) })
+        refusal(Call { required: &hidden, on_update: Some(Box::new(|_| None)), ..Call::good(&resources.guid, path) })
             .contains("intermediateUpdate")
     );
 }
@@ -102,7 +91,7 @@ fn only_inputs_and_outputs_may_be_asked_for_in_intermediate_updates() {
 #[test]
 fn the_other_kinds_of_fmu_are_refused_with_a_line() {
     let resources = Resources::of("6205-healthy");
-    let (_, environment) = call(&resources, "/").make();
+    let (_, environment) = Call::good(&resources.guid, "/").make();
     environment.take();
     unsafe extern "C-unwind" fn hear(environment: InstanceEnvironment, _: Status, _: FmiString, text: FmiString) {
         // SAFETY: the environment is the list below, the text ends in NUL.
@@ -149,7 +138,7 @@ fn categories_are_turned_on_and_off_one_by_one() {
     assert!(error_is_heard());
     assert_eq!(turn(FALSE, &[]), Status::Ok);
     assert!(!error_is_heard());
-    assert_eq!(host.enter(None, 0.0, None), Status::Ok);
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok);
     assert!(host.lines().is_empty(), "silent when off");
 }
 
@@ -157,5 +146,5 @@ fn categories_are_turned_on_and_off_one_by_one() {
 fn a_number_sign_which_names_variables_in_messages_is_doubled() {
     let resources = Resources::named("6205-healthy", "no #1#");
     let missing = format!("{}/none", resources.directory.to_str().unwrap());
-    assert!(refusal(call(&resources, &missing)).contains("no ##1##"));
+    assert!(refusal(Call::good(&resources.guid, &missing)).contains("no ##1##"));
 }

@@ -1,8 +1,8 @@
 //! Steps: the bits of FMI 2.0, what `fmi3DoStep` gives, and what it refuses.
 
+use crate::both::run;
 use crate::three::Host;
 use crate::two;
-use crate::two::bits;
 use brinell_fmi::fmi3::*;
 use std::ptr;
 
@@ -12,20 +12,13 @@ const SCENES: [&str; 5] = ["er16k-tb1", "6205-hosted", "6205-epps", "6205-irregu
 fn the_same_scene_and_steps_give_the_bits_of_fmi_2() {
     for scene in SCENES {
         let (host, other) = (Host::started(scene), two::Host::started(scene));
-        let (speed, all) = (host.reference("shaft.speed"), other.reals());
         // Row by row, as FMI 2.0 has them: arrays give all their elements where their first stands.
         let sorted = |mut values: Vec<u64>| {
             values.sort_unstable();
             values
         };
-        for n in 0..60 {
-            let (point, value) = (f64::from(n) * 1e-4, 60.0 + 0.1 * f64::from(n));
-            assert_eq!(host.set(&[speed], &[value]), Status::Ok);
-            assert_eq!(other.set(&[speed], &[value]), Status::Ok);
-            host.step(point, 1e-4);
-            assert_eq!(other.step(point, 1e-4), Status::Ok);
-            let (found, expected) = (sorted(bits(&host.all())), sorted(bits(&other.get(&all).unwrap())));
-            assert_eq!(found, expected, "{scene} after step {n}");
+        for (n, (found, expected)) in run(&host, 0, 60).into_iter().zip(run(&other, 0, 60)).enumerate() {
+            assert_eq!(sorted(found), sorted(expected), "{scene} after step {n}");
         }
     }
 }
@@ -46,16 +39,10 @@ fn a_wrong_point_a_wrong_step_and_one_past_the_stop_time_are_errors_with_the_num
         (0.0, f64::NAN, ["NaN", "above 0"]),
         (0.0, 2e-3, ["stop time 0.001 s", "past"]),
     ] {
-        let host = Host::of("6205-healthy");
-        assert_eq!(host.enter(None, 0.0, Some(1e-3)), Status::Ok);
-        assert_eq!(host.exit(), Status::Ok);
-        let state = host.save();
-        host.lines();
-        assert_eq!(host.do_step(point, size), Err(Status::Error));
-        let message = host.last_message();
-        assert!(message.starts_with("fmi3DoStep") && words.iter().all(|word| message.contains(word)), "{message}");
+        let host = Host::started_at("6205-healthy", 0.0, Some(1e-3));
+        let message = host.refuses(host.save(), &words, |h| h.advance(point, size));
+        assert!(message.starts_with("fmi3DoStep"), "{message}");
         // Nothing is lost.
-        assert_eq!(host.restore(state), Status::Ok);
         host.step(0.0, 1e-3);
     }
 }
@@ -66,15 +53,15 @@ fn start_and_stop_must_be_finite_and_a_tolerance_can_only_tighten() {
         [(None, f64::NAN, None), (None, 0.0, Some(f64::NAN)), (None, 1.0, Some(1.0)), (Some(0.0), 0.0, None)]
     {
         let host = Host::of("6205-healthy");
-        assert_eq!(host.enter(tolerance, start, stop), Status::Error, "{tolerance:?} {start} {stop:?}");
+        assert_eq!(host.begin(tolerance, start, stop), Status::Error, "{tolerance:?} {start} {stop:?}");
     }
     let host = Host::of("6205-healthy");
     let tolerance = host.reference("solver.tolerance");
     let own = host.get(&[tolerance]).unwrap()[0];
-    assert_eq!(host.enter(Some(1e-2), 0.0, None), Status::Ok);
+    assert_eq!(host.begin(Some(1e-2), 0.0, None), Status::Ok);
     assert_eq!(host.get(&[tolerance]).unwrap(), [own]);
     assert_eq!(host.reset(), Status::Ok);
-    assert_eq!(host.enter(Some(1e-9), 0.0, None), Status::Ok);
+    assert_eq!(host.begin(Some(1e-9), 0.0, None), Status::Ok);
     assert_eq!(host.get(&[tolerance]).unwrap(), [1e-9]);
 }
 
@@ -82,15 +69,14 @@ fn start_and_stop_must_be_finite_and_a_tolerance_can_only_tighten() {
 fn a_step_with_a_null_pointer_for_a_result_is_refused_before_anything_is_done() {
     for missing in 0..4 {
         let host = Host::started("6205-healthy");
-        let state = host.save();
         let (mut flags, mut time) = ([0; 3], 0.0);
         let pointer_or_null = |index: usize, pointer| if index == missing { ptr::null_mut() } else { pointer };
         let [event, end, early] = std::array::from_fn(|i| pointer_or_null(i, &raw mut flags[i]));
         let reached = if missing == 3 { ptr::null_mut() } else { &raw mut time };
-        // SAFETY: NULL, or pointers to one value each.
-        assert_eq!(unsafe { fmi3DoStep(host.c, 0.0, 1e-4, TRUE, event, end, early, reached) }, Status::Error);
-        assert!(host.last_message().contains("is NULL"));
-        assert_eq!(host.restore(state), Status::Ok);
+        host.refuses(host.save(), &["is NULL"], |h| {
+            // SAFETY: NULL, or pointers to one value each.
+            unsafe { fmi3DoStep(h.c, 0.0, 1e-4, TRUE, event, end, early, reached) }
+        });
         host.step(0.0, 1e-4);
     }
 }

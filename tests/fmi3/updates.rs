@@ -1,7 +1,8 @@
 //! Intermediate updates and the early returns that a host asks for in them.
 
-use crate::three::{Host, OnUpdate, Update, get, reals, set};
-use crate::two::bits;
+use crate::three::{Call, Host, OnUpdate, Update, get, set};
+use crate::two::{Resources, bits};
+use brinell::simulation::interface::table::Causality;
 use brinell_fmi::fmi3::*;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -12,27 +13,14 @@ const STEP: f64 = 1e-3;
 /// Time and values seen in updates.
 type Seen = Rc<RefCell<Vec<(Update, Vec<u64>)>>>;
 
-/// Names of what may be read in an update: continuous outputs, arrays by their own name.
-fn readable(scene: &str) -> Vec<String> {
-    let host = Host::of(scene);
-    let arrays = host.simulation().arrays();
-    let name = |reference: &u32| {
-        let row = &host.table()[*reference as usize];
-        let is_array = arrays.iter().any(|array| array.rows[0] == *reference);
-        if is_array { brinell::simulation::interface::of_all_elements(row).0 } else { row.name.clone() }
-    };
-    let is_output = |reference: &u32| {
-        let row = &host.table()[*reference as usize];
-        row.changes_within_steps() && row.causality == brinell::simulation::interface::table::Causality::Output
-    };
-    reals(host.simulation()).0.iter().filter(|reference| is_output(reference)).map(name).collect()
-}
-
-/// A host that reads all it may in every update, and asks for what `wants` says.
+/// A host that reads all it may in every update, which are continuous outputs, and asks for what `wants` says.
 fn watching(scene: &str, wants: impl Fn(Update) -> Option<f64> + 'static) -> (Host, Seen, Vec<u32>, usize) {
-    let names = readable(scene);
     let plain = Host::of(scene);
-    let references: Vec<u32> = names.iter().map(|name| plain.reference(name)).collect();
+    let is_readable = |reference: &u32| {
+        let row = &plain.table()[*reference as usize];
+        row.changes_within_steps() && row.causality == Causality::Output
+    };
+    let references: Vec<u32> = plain.reals().0.into_iter().filter(is_readable).collect();
     let arrays = plain.simulation().arrays();
     let width =
         |reference: &u32| arrays.iter().find(|array| array.rows[0] == *reference).map_or(1, |array| array.rows.len());
@@ -44,8 +32,7 @@ fn watching(scene: &str, wants: impl Fn(Update) -> Option<f64> + 'static) -> (Ho
         list.borrow_mut().push((update, bits(&values)));
         wants(update)
     });
-    let required: Vec<&str> = names.iter().map(String::as_str).collect();
-    (Host::updated(scene, &required, on_update), seen, references, count)
+    (Host::updated(scene, &references, on_update), seen, references, count)
 }
 
 #[test]
@@ -74,8 +61,8 @@ fn a_run_that_is_watched_has_the_bits_of_one_that_is_not() {
 #[test]
 fn a_run_under_law_love_that_is_watched_has_the_bits_of_one_that_is_not() {
     let love = |text: String| text.replace("law = \"hertz\"", "law = \"love\"");
-    let resources = || crate::three::Resources::edited("er16k-tb1", "resources", love);
-    let plain = Host::with(resources(), "instance 1", &[], None);
+    let resources = || Resources::edited("er16k-tb1", "resources", love);
+    let plain = Host::with(resources(), "instance 1", true);
     let y = [plain.reference("shaft.force.y")];
     let seen = Rc::new(RefCell::new(0));
     let count = Rc::clone(&seen);
@@ -85,7 +72,7 @@ fn a_run_under_law_love_that_is_watched_has_the_bits_of_one_that_is_not() {
         *count.borrow_mut() += 1;
         None
     });
-    let watched = Host::with(resources(), "instance 1", &y, Some(on_update));
+    let watched = Host::updated_with(resources(), &y, on_update);
     for host in [&watched, &plain] {
         host.start();
         (0..4).for_each(|n| host.step(f64::from(n) * STEP, STEP));
@@ -189,14 +176,7 @@ fn an_input_set_in_an_update_acts_from_there_on() {
             }
             None
         });
-        let host = if updated {
-            Host::updated("6205-hosted", &names, on_update)
-        } else {
-            Host::with(crate::three::Resources::of("6205-hosted"), "instance 1", &[], None)
-        };
-        if !updated {
-            host.start();
-        }
+        let host = if updated { Host::updated("6205-hosted", &inputs, on_update) } else { Host::started("6205-hosted") };
         for n in 0..count {
             let point = f64::from(n) * step;
             assert_eq!(host.set(&inputs, &curve(point)), Status::Ok);
@@ -227,7 +207,7 @@ fn inputs_set_to_where_they_are_change_no_bit() {
         }
         None
     });
-    let host = Host::updated("er16k-tb1", &names, on_update);
+    let host = Host::updated("er16k-tb1", &inputs, on_update);
     for n in 0..20 {
         host.step(f64::from(n) * STEP, STEP);
         plain.step(f64::from(n) * STEP, STEP);
@@ -249,7 +229,7 @@ fn the_mean_force_belongs_to_the_last_step_while_the_next_is_under_way() {
         }
         None
     });
-    let host = Host::updated("6205-hosted", &["shaft.mean_force.y", "shaft.x"], on_update);
+    let host = Host::updated("6205-hosted", &[mean, x], on_update);
     for n in 0..5 {
         let before = host.get(&[mean]).unwrap();
         assert_eq!(host.set(&[host.reference("shaft.y")], &[-15e-6 - 1e-6 * f64::from(n)]), Status::Ok);
@@ -263,7 +243,7 @@ fn the_mean_force_belongs_to_the_last_step_while_the_next_is_under_way() {
 #[test]
 fn the_mean_force_is_that_of_the_whole_step_though_inputs_are_set_inside() {
     let wiggle = |update: Update| 1e-9 * (update.time * 1e6).sin();
-    let plain = Host::of("6205-hosted");
+    let plain = Host::started("6205-hosted");
     let x = plain.reference("shaft.x");
     let on_update: OnUpdate = Box::new(move |update| {
         if update.set_requested {
@@ -271,11 +251,8 @@ fn the_mean_force_is_that_of_the_whole_step_though_inputs_are_set_inside() {
         }
         None
     });
-    let host = Host::updated("6205-hosted", &["shaft.x"], on_update);
+    let host = Host::updated("6205-hosted", &[x], on_update);
     for one in [&host, &plain] {
-        if one.c == plain.c {
-            one.start();
-        }
         assert_eq!(one.set(&[one.reference("shaft.y")], &[-15e-6]), Status::Ok);
         one.step(0.0, STEP);
     }
@@ -286,7 +263,7 @@ fn the_mean_force_is_that_of_the_whole_step_though_inputs_are_set_inside() {
 }
 
 /// What an update that does `wrong` makes of its step.
-fn failed(required: &[&str], wrong: impl Fn(Update) -> Option<f64> + 'static) -> String {
+fn failed(required: &[u32], wrong: impl Fn(Update) -> Option<f64> + 'static) -> String {
     let host = Host::updated("6205-hosted", required, Box::new(wrong));
     let state = host.save();
     host.lines();
@@ -301,20 +278,20 @@ fn what_an_update_may_not_do_fails_the_step_with_the_reason() {
     let plain = Host::of("6205-hosted");
     let [speed, force, path, mean] =
         ["shaft.speed", "shaft.force.y", "element.path", "shaft.mean_force.x"].map(|name| plain.reference(name));
-    let said = failed(&["shaft.force.y"], move |update| {
+    let said = failed(&[force], move |update| {
         assert!(get(update.instance, &[speed], 1).is_err());
         None
     });
     assert!(said.contains("shaft.speed") && said.contains("requiredIntermediateVariables"), "{said}");
     assert!(said.contains("a call inside the intermediate update"), "{said}");
-    let said = failed(&["shaft.force.y"], move |update| get(update.instance, &[mean], 1).err().and(None));
+    let said = failed(&[force], move |update| get(update.instance, &[mean], 1).err().and(None));
     assert!(said.contains("shaft.mean_force.x") && said.contains("cannot be read"), "{said}");
-    let said = failed(&["shaft.force.y"], move |update| {
+    let said = failed(&[force], move |update| {
         assert_eq!(set(update.instance, &[force], &[1.0]), Status::Error);
         None
     });
     assert!(said.contains("cannot be set in an intermediate update"), "{said}");
-    let said = failed(&["element.path"], move |update| get(update.instance, &[path], 3).err().and(None));
+    let said = failed(&[path], move |update| get(update.instance, &[path], 3).err().and(None));
     assert!(said.contains("9 values"), "{said}");
     let said = failed(&[], |update| {
         // SAFETY of both: a living handle.
@@ -335,30 +312,14 @@ fn what_an_update_may_not_do_fails_the_step_with_the_reason() {
 
 #[test]
 fn a_host_that_cannot_handle_an_early_return_gets_none() {
-    let resources = crate::three::Resources::of("6205-healthy");
+    let resources = Resources::of("6205-healthy");
     let path = resources.directory.to_str().unwrap();
-    let call = crate::three::Call {
-        name: Some("instance 1"),
-        token: Some(&resources.guid),
-        path: Some(path),
-        logging: false,
-        event_mode: false,
-        early_return: false,
-        required: &[],
-        on_update: Some(Box::new(|update| {
-            assert!(!update.can_return);
-            Some(update.time)
-        })),
-    };
-    let (c, _environment) = call.make();
-    let (mut flags, mut time) = ([9; 3], 0.0);
-    let [event, end, early] = std::array::from_fn(|i| &raw mut flags[i]);
-    // SAFETY: a living handle, and pointers to one value each.
-    unsafe {
-        assert_eq!(fmi3EnterInitializationMode(c, FALSE, 0.0, 0.0, FALSE, 0.0), Status::Ok);
-        assert_eq!(fmi3ExitInitializationMode(c), Status::Ok);
-        assert_eq!(fmi3DoStep(c, 0.0, STEP, TRUE, event, end, early, &raw mut time), Status::Ok);
-        fmi3FreeInstance(c);
-    }
-    assert_eq!((flags, time), ([FALSE; 3], STEP));
+    let on_update: OnUpdate = Box::new(|update| {
+        assert!(!update.can_return);
+        Some(update.time)
+    });
+    let parts = Call { on_update: Some(on_update), ..Call::good(&resources.guid, path) }.make();
+    let host = Host::of_parts(parts, resources.into());
+    host.start();
+    host.step(0.0, STEP);
 }

@@ -1,8 +1,8 @@
 //! Reading and setting: scalars, arrays, types, and what is refused.
 
+use crate::both::{probes, refuse};
 use crate::three::Host;
-use crate::two;
-use crate::two::bits;
+use crate::two::{self, Resources, bits};
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi3::*;
 use std::ffi::CStr;
@@ -15,7 +15,7 @@ fn an_array_has_the_values_of_all_elements_in_their_order() {
         for n in 0..30 {
             let point = f64::from(n) * 1e-4;
             host.step(point, 1e-4);
-            assert_eq!(other.step(point, 1e-4), brinell_fmi::fmi2::Status::Ok);
+            assert_eq!(other.step(point, 1e-4), Status::Ok);
         }
         for quantity in ["angle", "path", "force.inner", "force.outer"] {
             let names = (1..=9).map(|j| other.reference(&format!("element[{j}].{quantity}")));
@@ -39,21 +39,6 @@ fn what_only_a_defective_element_has_is_a_scalar() {
     assert!(host.get(&[host.reference(&name)]).unwrap()[0].is_finite());
 }
 
-/// Refuses, says so, and is restored.
-fn refused(host: &Host, state: FmuState, status: Status, words: &[&str], call: impl FnOnce(&Host) -> Status) {
-    host.lines();
-    assert_eq!(call(host), status);
-    let message = host.last_message();
-    for word in words {
-        assert!(message.contains(word), "{word}: {message}");
-    }
-    assert_eq!(host.restore(state), Status::Ok);
-}
-
-fn status_of<T>(result: Result<T, Status>) -> Status {
-    result.map_or_else(|status| status, |_| Status::Ok)
-}
-
 #[test]
 fn a_number_of_values_that_does_not_fit_is_an_error_with_both_numbers() {
     let host = Host::started("er16k-tb1");
@@ -67,10 +52,10 @@ fn a_number_of_values_that_does_not_fit_is_an_error_with_both_numbers() {
         (&[], 1, "0 values"),
     ] {
         let words = ["nValues", &format!("= {count}:"), needed];
-        refused(&host, state, Status::Error, &words, |h| status_of(h.get_values(references, count)));
+        host.refuses(state, &words, |h| h.get_values(references, count).unwrap_err());
     }
     let speed = host.reference("shaft.speed");
-    refused(&host, state, Status::Error, &["nValues = 2", "1 values"], |h| h.set(&[speed], &[1.0, 2.0]));
+    host.refuses(state, &["nValues = 2", "1 values"], |h| h.set(&[speed], &[1.0, 2.0]));
 }
 
 #[test]
@@ -83,33 +68,27 @@ fn unknown_references_wrong_types_and_what_cannot_be_set_are_errors_that_say_so(
     let y = host.reference("shaft.y");
     for unknown in [hidden, 5_000, u32::MAX] {
         let word = format!("value reference {unknown} is unknown");
-        refused(&host, state, Status::Error, &[&word], |h| status_of(h.get(&[unknown])));
-        refused(&host, state, Status::Error, &[&word], |h| h.set(&[unknown], &[1.0]));
+        host.refuses(state, &[&word], |h| h.get(&[unknown]).unwrap_err());
+        host.refuses(state, &[&word], |h| h.set(&[unknown], &[1.0]));
     }
     for wrong in [steps, law] {
-        refused(&host, state, Status::Error, &["is not of type Real"], |h| status_of(h.get(&[wrong])));
+        host.refuses(state, &["is not of type Real"], |h| h.get(&[wrong]).unwrap_err());
     }
     // SAFETY of all the blocks: one reference and one value each.
-    refused(&host, state, Status::Error, &["shaft.y", "Int64"], |h| unsafe { fmi3GetInt64(h.c, &y, 1, &mut 0, 1) });
-    refused(&host, state, Status::Error, &["shaft.y", "UInt64"], |h| unsafe { fmi3GetUInt64(h.c, &y, 1, &mut 0, 1) });
-    refused(&host, state, Status::Error, &["shaft.y", "Boolean"], |h| unsafe { fmi3GetBoolean(h.c, &y, 1, &mut 0, 1) });
-    refused(&host, state, Status::Error, &["shaft.y", "Int32"], |h| unsafe { fmi3SetInt32(h.c, &y, 1, &0, 1) });
-    refused(&host, state, Status::Error, &["shaft.y", "Binary"], |h| unsafe {
-        fmi3GetBinary(h.c, &y, 1, &mut 0, &mut ptr::null(), 1)
-    });
-    refused(&host, state, Status::Error, &["shaft.y", "Clock"], |h| unsafe { fmi3GetClock(h.c, &y, 1, &mut 0) });
-    refused(&host, state, Status::Error, &["solver.steps", "computed"], |h| unsafe {
-        fmi3SetUInt64(h.c, &steps, 1, &0, 1)
-    });
-    refused(&host, state, Status::Error, &["contact.law", "fixed after"], |h| unsafe {
-        fmi3SetInt64(h.c, &law, 1, &1, 1)
-    });
-    refused(&host, state, Status::Error, &["shaft.y", "computed"], |h| h.set(&[y], &[1.0]));
-    refused(&host, state, Status::Error, &["cage.slip", "fixed after"], |h| h.set(&[h.reference("cage.slip")], &[0.1]));
+    host.refuses(state, &["shaft.y", "Int64"], |h| unsafe { fmi3GetInt64(h.c, &y, 1, &mut 0, 1) });
+    host.refuses(state, &["shaft.y", "UInt64"], |h| unsafe { fmi3GetUInt64(h.c, &y, 1, &mut 0, 1) });
+    host.refuses(state, &["shaft.y", "Boolean"], |h| unsafe { fmi3GetBoolean(h.c, &y, 1, &mut 0, 1) });
+    host.refuses(state, &["shaft.y", "Int32"], |h| unsafe { fmi3SetInt32(h.c, &y, 1, &0, 1) });
+    host.refuses(state, &["shaft.y", "Binary"], |h| unsafe { fmi3GetBinary(h.c, &y, 1, &mut 0, &mut ptr::null(), 1) });
+    host.refuses(state, &["shaft.y", "Clock"], |h| unsafe { fmi3GetClock(h.c, &y, 1, &mut 0) });
+    host.refuses(state, &["solver.steps", "computed"], |h| unsafe { fmi3SetUInt64(h.c, &steps, 1, &0, 1) });
+    host.refuses(state, &["contact.law", "fixed after"], |h| unsafe { fmi3SetInt64(h.c, &law, 1, &1, 1) });
+    host.refuses(state, &["shaft.y", "computed"], |h| h.set(&[y], &[1.0]));
+    host.refuses(state, &["cage.slip", "fixed after"], |h| h.set(&[h.reference("cage.slip")], &[0.1]));
     let time = host.reference("time");
-    refused(&host, state, Status::Error, &["time", "computed"], |h| h.set(&[time], &[1.0]));
+    host.refuses(state, &["time", "computed"], |h| h.set(&[time], &[1.0]));
     let path = host.reference("element.path");
-    refused(&host, state, Status::Error, &["element.path", "computed"], |h| h.set(&[path], &[0.0; 9]));
+    host.refuses(state, &["element.path", "computed"], |h| h.set(&[path], &[0.0; 9]));
 }
 
 #[test]
@@ -129,14 +108,8 @@ fn values_outside_their_range_and_nan_are_discarded_under_fmi_3_and_change_nothi
 
 #[test]
 fn counters_enumerations_and_strings_have_their_types() {
-    let host = Host::with(
-        crate::three::Resources::edited("er16k-tb1", "resources", |text| {
-            text + "\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n"
-        }),
-        "instance 1",
-        &[],
-        None,
-    );
+    let recorder = |text: String| text + "\n[recorder]\nrate_hz = 51200.0\nfilter = \"none\"\n";
+    let host = Host::with(Resources::edited("er16k-tb1", "resources", recorder), "instance 1", true);
     let law = host.reference("contact.law");
     let mut value = 0;
     // SAFETY of all the blocks: one reference and one value each; strings end in NUL.
@@ -180,7 +153,7 @@ fn start_values_are_read_before_initialization_and_the_time_is_where_the_instanc
         }
     }
     let time = host.reference("time");
-    assert_eq!(host.enter(None, 3.5, None), Status::Ok);
+    assert_eq!(host.begin(None, 3.5, None), Status::Ok);
     assert_eq!(host.get(&[time]).unwrap(), [3.5]);
     assert_eq!(host.exit(), Status::Ok);
     host.step(3.5, 0.25e-3);
@@ -195,14 +168,12 @@ fn misaligned_and_overlapping_arrays_and_null_are_refused_under_fmi_3() {
     let odd = memory.as_mut_ptr().wrapping_byte_add(1);
     let y = host.reference("shaft.y");
     // SAFETY of all the blocks: refused before memory is touched, or good.
-    refused(&host, state, Status::Error, &["values", "aligned"], |h| unsafe { fmi3GetFloat64(h.c, &y, 1, odd, 1) });
-    refused(&host, state, Status::Error, &["values", "NULL"], |h| unsafe {
-        fmi3GetFloat64(h.c, &y, 1, ptr::null_mut(), 1)
-    });
-    refused(&host, state, Status::Error, &["valueReferences", "NULL"], |h| unsafe {
+    host.refuses(state, &["values", "aligned"], |h| unsafe { fmi3GetFloat64(h.c, &y, 1, odd, 1) });
+    host.refuses(state, &["values", "NULL"], |h| unsafe { fmi3GetFloat64(h.c, &y, 1, ptr::null_mut(), 1) });
+    host.refuses(state, &["valueReferences", "NULL"], |h| unsafe {
         fmi3GetFloat64(h.c, ptr::null(), 1, memory.as_mut_ptr(), 1)
     });
-    refused(&host, state, Status::Error, &["overlap"], |h| unsafe {
+    host.refuses(state, &["overlap"], |h| unsafe {
         let pointer = memory.as_mut_ptr();
         fmi3GetFloat64(h.c, pointer.cast(), 1, pointer, 1)
     });
@@ -210,46 +181,33 @@ fn misaligned_and_overlapping_arrays_and_null_are_refused_under_fmi_3() {
 
 #[test]
 fn every_pointer_may_be_null_in_every_function_of_fmi_3() {
-    /// NULL for whatever pointer a function takes.
-    macro_rules! nulls {
-        ($($name:ident($($argument:expr),*);)*) => {
-            // SAFETY of all the blocks: NULL is what is tested.
-            [$((stringify!($name), (|c| unsafe { $name(c, $($argument),*) }) as fn(Instance) -> Status)),*]
-        };
-    }
-    let calls = nulls! {
-        fmi3SetDebugLogging(TRUE, 1, ptr::null());
-        fmi3GetFloat32(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetFloat64(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetInt64(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetUInt64(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetBoolean(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetString(ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetBinary(ptr::null(), 1, ptr::null_mut(), ptr::null_mut(), 1);
-        fmi3GetClock(ptr::null(), 1, ptr::null_mut());
-        fmi3SetFloat64(ptr::null(), 1, ptr::null(), 1);
-        fmi3SetInt64(ptr::null(), 1, ptr::null(), 1);
-        fmi3SetUInt64(ptr::null(), 1, ptr::null(), 1);
-        fmi3SetString(ptr::null(), 1, ptr::null(), 1);
-        fmi3GetNumberOfVariableDependencies(0, ptr::null_mut());
-        fmi3GetVariableDependencies(12, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), 5);
-        fmi3GetFMUState(ptr::null_mut());
-        fmi3SetFMUState(ptr::null_mut());
-        fmi3SerializedFMUStateSize(ptr::null_mut(), ptr::null_mut());
-        fmi3SerializeFMUState(ptr::null_mut(), ptr::null_mut(), 10);
-        fmi3DeserializeFMUState(ptr::null(), 10, ptr::null_mut());
-        fmi3GetDirectionalDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetAdjointDerivative(ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
-        fmi3GetOutputDerivatives(ptr::null(), 1, ptr::null(), ptr::null_mut(), 1);
-        fmi3DoStep(0.0, 1e-4, TRUE, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut());
+    let calls = probes! {
+        fmi3SetDebugLogging "" (TRUE, 1, ptr::null());
+        fmi3GetFloat32 "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetFloat64 "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetInt64 "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetUInt64 "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBoolean "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetString "" (ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetBinary "" (ptr::null(), 1, ptr::null_mut(), ptr::null_mut(), 1);
+        fmi3GetClock "" (ptr::null(), 1, ptr::null_mut());
+        fmi3SetFloat64 "" (ptr::null(), 1, ptr::null(), 1);
+        fmi3SetInt64 "" (ptr::null(), 1, ptr::null(), 1);
+        fmi3SetUInt64 "" (ptr::null(), 1, ptr::null(), 1);
+        fmi3SetString "" (ptr::null(), 1, ptr::null(), 1);
+        fmi3GetNumberOfVariableDependencies "" (0, ptr::null_mut());
+        fmi3GetVariableDependencies "" (12, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), 5);
+        fmi3GetFMUState "" (ptr::null_mut());
+        fmi3SetFMUState "" (ptr::null_mut());
+        fmi3SerializedFMUStateSize "" (ptr::null_mut(), ptr::null_mut());
+        fmi3SerializeFMUState "" (ptr::null_mut(), ptr::null_mut(), 10);
+        fmi3DeserializeFMUState "" (ptr::null(), 10, ptr::null_mut());
+        fmi3GetDirectionalDerivative "" (ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetAdjointDerivative "" (ptr::null(), 1, ptr::null(), 1, ptr::null(), 1, ptr::null_mut(), 1);
+        fmi3GetOutputDerivatives "" (ptr::null(), 1, ptr::null(), ptr::null_mut(), 1);
+        fmi3DoStep "" (0.0, 1e-4, TRUE, ptr::null_mut(), ptr::null_mut(), ptr::null_mut(), ptr::null_mut());
     };
     let host = Host::started("er16k-tb1");
-    let state = host.save();
-    for (name, call) in calls {
-        host.lines();
-        assert_eq!(call(host.c), Status::Error, "{name}");
-        assert!(host.last_message().starts_with(name));
-        assert_eq!(host.restore(state), Status::Ok);
-    }
+    refuse(&host, &calls);
     host.step(0.0, 1e-4);
 }

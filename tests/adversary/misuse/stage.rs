@@ -56,7 +56,7 @@ impl Stage {
     fn new(name: &'static str, resources: Resources) -> Self {
         let host = Host::with(resources, "stage", false);
         let mapped = host.resources.directory.join("map.bin").exists();
-        Self { name, table: host.table(), resources: Arc::clone(&host.resources), mapped }
+        Self { name, table: host.table().to_vec(), resources: Arc::clone(&host.resources), mapped }
     }
 
     /// Inputs, and parameters if they are not yet `fixed`.
