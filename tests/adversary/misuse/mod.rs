@@ -34,41 +34,47 @@ use walker::{SHARERS, State, Strangers, Walker};
 /// A call: who makes it, with what luck, whether with good arguments, and what others have.
 type Call = fn(&mut Walker, &mut Chance, bool, &Strangers);
 
-const CALLS: [(&str, Call); 34] = [
-    ("fmi2GetTypesPlatform", life::platform),
-    ("fmi2GetVersion", life::version),
-    ("fmi2SetDebugLogging", life::debug_logging),
-    ("fmi2Instantiate", life::instantiate),
-    ("fmi2FreeInstance", life::free),
-    ("fmi2SetupExperiment", life::setup),
-    ("fmi2EnterInitializationMode", life::enter),
-    ("fmi2ExitInitializationMode", life::exit),
-    ("fmi2Terminate", life::terminate),
-    ("fmi2Reset", life::reset),
-    ("fmi2GetReal", values::get_real),
-    ("fmi2GetInteger", values::get_integer),
-    ("fmi2GetBoolean", values::get_boolean),
-    ("fmi2GetString", values::get_string),
-    ("fmi2SetReal", values::set_real),
-    ("fmi2SetInteger", values::set_integer),
-    ("fmi2SetBoolean", values::set_boolean),
-    ("fmi2SetString", values::set_string),
-    ("fmi2GetFMUstate", states::get_state),
-    ("fmi2SetFMUstate", states::set_state),
-    ("fmi2FreeFMUstate", states::free_state),
-    ("fmi2SerializedFMUstateSize", states::state_size),
-    ("fmi2SerializeFMUstate", states::serialize),
-    ("fmi2DeSerializeFMUstate", states::deserialize),
-    ("fmi2GetDirectionalDerivative", steps::directional),
-    ("fmi2SetRealInputDerivatives", steps::input_derivatives),
-    ("fmi2GetRealOutputDerivatives", steps::output_derivatives),
-    ("fmi2DoStep", steps::do_step),
-    ("fmi2CancelStep", life::cancel),
-    ("fmi2GetStatus", steps::status),
-    ("fmi2GetRealStatus", steps::real_status),
-    ("fmi2GetIntegerStatus", steps::integer_status),
-    ("fmi2GetBooleanStatus", steps::boolean_status),
-    ("fmi2GetStringStatus", steps::string_status),
+/// Each function of the standard, the states in which it may be called, and a call of it. The letters are those of
+/// [`State`], written down from the standard's table (FMI 2.0.x, section 4.2.4, co-simulation) and from nothing of
+/// Brinell; S is *start and end*: no instance.
+///
+/// States that cannot occur here have no letter: *step in progress* and *step canceled* need a step in the background,
+/// *step failed* a step that is discarded, *fatal* condemns other instances.
+const TABLE: [(&str, &str, Call); 34] = [
+    ("fmi2GetTypesPlatform", "SIZCTE", life::platform),
+    ("fmi2GetVersion", "SIZCTE", life::version),
+    ("fmi2SetDebugLogging", "IZCTE", life::debug_logging),
+    ("fmi2Instantiate", "S", life::instantiate),
+    ("fmi2FreeInstance", "IZCTE", life::free),
+    ("fmi2SetupExperiment", "I", life::setup),
+    ("fmi2EnterInitializationMode", "I", life::enter),
+    ("fmi2ExitInitializationMode", "Z", life::exit),
+    ("fmi2Terminate", "C", life::terminate),
+    ("fmi2Reset", "IZCTE", life::reset),
+    ("fmi2GetReal", "ZCTE", values::get_real),
+    ("fmi2GetInteger", "ZCTE", values::get_integer),
+    ("fmi2GetBoolean", "ZCTE", values::get_boolean),
+    ("fmi2GetString", "ZCTE", values::get_string),
+    ("fmi2SetReal", "IZC", values::set_real),
+    ("fmi2SetInteger", "IZC", values::set_integer),
+    ("fmi2SetBoolean", "IZC", values::set_boolean),
+    ("fmi2SetString", "IZC", values::set_string),
+    ("fmi2GetFMUstate", "IZCTE", states::get_state),
+    ("fmi2SetFMUstate", "IZCTE", states::set_state),
+    ("fmi2FreeFMUstate", "IZCTE", states::free_state),
+    ("fmi2SerializedFMUstateSize", "IZCTE", states::state_size),
+    ("fmi2SerializeFMUstate", "IZCTE", states::serialize),
+    ("fmi2DeSerializeFMUstate", "IZCTE", states::deserialize),
+    ("fmi2GetDirectionalDerivative", "ZCTE", steps::directional),
+    ("fmi2SetRealInputDerivatives", "IZC", steps::input_derivatives),
+    ("fmi2GetRealOutputDerivatives", "CTE", steps::output_derivatives),
+    ("fmi2DoStep", "C", steps::do_step),
+    ("fmi2CancelStep", "", life::cancel),
+    ("fmi2GetStatus", "CT", steps::status),
+    ("fmi2GetRealStatus", "CT", steps::real_status),
+    ("fmi2GetIntegerStatus", "CT", steps::integer_status),
+    ("fmi2GetBooleanStatus", "CT", steps::boolean_status),
+    ("fmi2GetStringStatus", "CT", steps::string_status),
 ];
 
 /// What a host that knows the standard would do next.
@@ -93,16 +99,21 @@ fn sensible(w: &Walker, chance: &mut Chance, patience: usize) -> Call {
 /// How seldom in a round a call is none that a host would make: often, or so seldom that runs become long.
 const PATIENCE: [usize; 2] = [3, 60];
 
-/// One call of one instance, which is any of all once in `patience` calls.
+/// One call of one instance, which is any of all once in `patience` calls. One that it has freed is replaced, and goes on
+/// with the other's counts.
 fn call(w: &mut Walker, chance: &mut Chance, patience: usize, others: &Strangers) {
     if chance.one_in(patience) {
-        let (_, call) = CALLS[chance.below(CALLS.len())];
+        let (.., call) = TABLE[chance.below(TABLE.len())];
         call(w, chance, false, others);
     } else {
         let (call, kind) = (sensible(w, chance, patience), !chance.one_in(3 * patience));
         call(w, chance, kind, others);
     }
-    if chance.one_in(12) && !w.gone {
+    if w.gone {
+        let next = Walker::new(w.stage, w.folders, w.number + 1000, w.seed, chance);
+        let before = std::mem::replace(w, next).tally;
+        w.tally.add(&before);
+    } else if chance.one_in(12) {
         w.compare();
     }
 }
@@ -139,10 +150,6 @@ fn walk_of_two(stages: &[Stage], mut chance: Chance) {
         others.blobs = states::publish(&walkers[other], &mut chance).into_iter().collect();
         others.states = walkers[other].saved.iter().map(|saved| saved.handle.addr()).collect();
         call(&mut walkers[one], &mut chance, PATIENCE[0], &others);
-        if walkers[one].gone {
-            let number = walkers[one].number + 1000;
-            walkers[one] = Walker::new(stage, &folders, number, 0, &mut chance);
-        }
     }
     walkers.iter_mut().for_each(|walker| finish(walker, &mut chance));
 }

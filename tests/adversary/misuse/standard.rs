@@ -1,9 +1,6 @@
-//! What the standard allows, written down from its table (FMI 2.0.x, section 4.2.4, co-simulation) and from nothing of
-//! Brinell.
-//!
-//! States that cannot occur here have no letter: *step in progress* and *step canceled* need a step in the background,
-//! *step failed* a step that is discarded, *fatal* condemns other instances.
+//! What the standard allows.
 
+use super::TABLE;
 use brinell_fmi::fmi2::Status;
 
 /// Where an instance is. The letters are those of [`TABLE`].
@@ -23,47 +20,9 @@ pub(super) enum State {
 
 pub(super) const LETTERS: &str = "IZCTE";
 
-/// Each function of the standard, and the states in which it may be called. S is *start and end*: no instance.
-pub(super) const TABLE: [(&str, &str); 34] = [
-    ("fmi2GetTypesPlatform", "SIZCTE"),
-    ("fmi2GetVersion", "SIZCTE"),
-    ("fmi2SetDebugLogging", "IZCTE"),
-    ("fmi2Instantiate", "S"),
-    ("fmi2FreeInstance", "IZCTE"),
-    ("fmi2SetupExperiment", "I"),
-    ("fmi2EnterInitializationMode", "I"),
-    ("fmi2ExitInitializationMode", "Z"),
-    ("fmi2Terminate", "C"),
-    ("fmi2Reset", "IZCTE"),
-    ("fmi2GetReal", "ZCTE"),
-    ("fmi2GetInteger", "ZCTE"),
-    ("fmi2GetBoolean", "ZCTE"),
-    ("fmi2GetString", "ZCTE"),
-    ("fmi2SetReal", "IZC"),
-    ("fmi2SetInteger", "IZC"),
-    ("fmi2SetBoolean", "IZC"),
-    ("fmi2SetString", "IZC"),
-    ("fmi2GetFMUstate", "IZCTE"),
-    ("fmi2SetFMUstate", "IZCTE"),
-    ("fmi2FreeFMUstate", "IZCTE"),
-    ("fmi2SerializedFMUstateSize", "IZCTE"),
-    ("fmi2SerializeFMUstate", "IZCTE"),
-    ("fmi2DeSerializeFMUstate", "IZCTE"),
-    ("fmi2GetDirectionalDerivative", "ZCTE"),
-    ("fmi2SetRealInputDerivatives", "IZC"),
-    ("fmi2GetRealOutputDerivatives", "CTE"),
-    ("fmi2DoStep", "C"),
-    ("fmi2CancelStep", ""),
-    ("fmi2GetStatus", "CT"),
-    ("fmi2GetRealStatus", "CT"),
-    ("fmi2GetIntegerStatus", "CT"),
-    ("fmi2GetBooleanStatus", "CT"),
-    ("fmi2GetStringStatus", "CT"),
-];
-
 /// Index of a function in the table.
 pub(super) fn row(function: &str) -> usize {
-    TABLE.iter().position(|(name, _)| *name == function).unwrap()
+    TABLE.iter().position(|(name, ..)| *name == function).unwrap()
 }
 
 pub(super) fn allows(function: &str, state: State) -> bool {

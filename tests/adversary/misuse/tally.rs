@@ -1,6 +1,7 @@
 //! What walks have done: calls by function, state and status, and comparisons.
 
-use super::standard::{LETTERS, State, TABLE, row};
+use super::TABLE;
+use super::standard::{LETTERS, State, row};
 use brinell_fmi::fmi2::Status;
 use std::fmt;
 use std::ops::Range;
@@ -86,7 +87,7 @@ impl Tally {
             let untried = states().filter(|(state, _)| self.calls.0[row][*state] == [0; 4]);
             untried.map(|(_, letter)| format!("{name} in {letter}")).collect()
         };
-        TABLE.iter().enumerate().flat_map(|(row, (name, _))| gap(name, row)).collect()
+        TABLE.iter().enumerate().flat_map(|(row, (name, ..))| gap(name, row)).collect()
     }
 }
 

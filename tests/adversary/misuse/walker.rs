@@ -157,11 +157,6 @@ impl<'w> Walker<'w> {
         }
     }
 
-    /// Statuses that a call may have: those given where the function is allowed, an error elsewhere.
-    pub(super) fn expect(&self, function: &str, where_allowed: Statuses) -> Statuses {
-        if standard::allows(function, self.model.state) { where_allowed } else { ERROR }
-    }
-
     /// With an error beside the statuses given, if values are such that it may fail.
     pub(super) fn unless_wild(&self, statuses: Statuses) -> Statuses {
         if self.model.wild || self.model.state == State::Error { statuses.or(ERROR) } else { statuses }
@@ -190,15 +185,17 @@ impl<'w> Walker<'w> {
         [self.folder, self.begun_in].contains(&Folder::Full)
     }
 
-    /// Looks at the status and the log of a call. True if the call has had its effect.
+    /// Looks at the status and the log of a call, of which these statuses are expected where the function is allowed and
+    /// an error elsewhere. True if the call has had its effect.
     pub(super) fn judge(
         &mut self,
         function: &'static str,
-        expected: Statuses,
+        where_allowed: Statuses,
         status: Status,
         call: impl FnOnce() -> String,
     ) -> bool {
         let state = self.model.state;
+        let expected = if standard::allows(function, state) { where_allowed } else { ERROR };
         self.tally.count(function, state, status);
         self.remember(format!("{function}({}) in {state:?}: {status:?}", call()));
         let lines = self.subject.lines();

@@ -8,10 +8,9 @@
 
 use super::chance::Chance;
 use super::stage::{Folders, FullDisk, Stage, stages};
-use super::standard::TABLE;
 use super::tally::Tally;
 use super::walker::{SHARERS, Strangers, Walker};
-use super::{CALLS, PATIENCE, call, disk, finish, states, walk_of_bytes};
+use super::{PATIENCE, call, disk, finish, states, walk_of_bytes};
 use crate::support;
 use crate::two::FORBIDDEN_CALLS;
 use brinell_fmi::fmi2::Status;
@@ -33,14 +32,7 @@ fn round(walkers: &mut [Walker], seed: u64, others: &Strangers) {
     let patience = *chance.pick(&PATIENCE);
     for _ in 0..CALLS_A_ROUND * walkers.len() {
         let index = chance.below(walkers.len());
-        let w = &mut walkers[index];
-        call(w, &mut chance, patience, others);
-        // One that it has freed is replaced.
-        if w.gone {
-            let next = Walker::new(w.stage, w.folders, w.number + 1000, w.seed, &mut chance);
-            let old = std::mem::replace(w, next);
-            w.tally.add(&old.tally);
-        }
+        call(&mut walkers[index], &mut chance, patience, others);
     }
 }
 
@@ -128,11 +120,6 @@ fn a_fuzzers_bytes_are_a_walk() {
         let bytes: Vec<u8> = (0..500).map(|_| chance.number() as u8).collect();
         walk_of_bytes(&bytes);
     }
-}
-
-#[test]
-fn the_calls_are_those_of_the_standards_table() {
-    assert_eq!(CALLS.map(|(name, _)| name), TABLE.map(|(name, _)| name));
 }
 
 #[test]
