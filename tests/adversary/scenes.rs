@@ -6,7 +6,7 @@ mod judge;
 mod report;
 
 use crate::case::Case;
-use crate::draw::{Draw, for_seeds, seeds};
+use crate::draw::{Draw, for_compared, seeds};
 use crate::oracle::Bearing;
 use crate::oracle::envelope::within_half_a_turn;
 use crate::oracle::surface::Surface;
@@ -50,6 +50,8 @@ fn random_scenes_agree_with_the_oracle() {
     println!("{}", tally.markdown());
     let failed = tally.failed();
     assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
+    // Two thirds of all do; one that is replayed alone may be refused.
+    assert!(entries.len() == 1 || 3 * tally.agreed() >= entries.len(), "hardly any could be compared");
 }
 
 /// One line for each scene that a long run has judged.
@@ -74,14 +76,13 @@ fn many_random_scenes_agree_with_the_oracle() {
     let done: BTreeSet<u64> =
         so_far.iter().filter(|entry| !matches!(entry.came, Came::Failed(_))).map(|entry| entry.seed).collect();
     let mut lines = OpenOptions::new().create(true).append(true).open(LINES).unwrap();
-    let mut failed = Vec::new();
-    for seed in seeds(10_000).filter(|seed| !done.contains(seed)) {
+    let judged_now = |seed: u64| {
         let entry = judged(seed);
         lines.write_all(format!("{entry}\n").as_bytes()).unwrap();
-        if let Came::Failed(why) = entry.came {
-            failed.push(format!("BRINELL_SEED={seed}: {why}"));
-        }
-    }
+        entry
+    };
+    let entries: Vec<Entry> = seeds(10_000).filter(|seed| !done.contains(seed)).map(judged_now).collect();
+    let failed = Tally::new(&entries).failed();
     assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
 }
 
@@ -112,21 +113,21 @@ fn the_page_holds_the_section() {
 /// envelope, on either raceway that meets it.
 #[test]
 fn random_rigid_paths_are_the_envelope() {
-    for_seeds(60, |_, draw| {
+    for_compared(60, |_, draw| {
         let (_, mut case) = random(draw);
         // They come on top of a path.
         case.waves.clear();
         let oracle = Bearing::new(&case);
         if oracle.all_surfaces().next().is_none() {
-            return Ok(());
+            return Ok(false);
         }
         let simulation = match Subject::new(&case) {
             Ok(subject) => subject.simulation,
             Err(Refusal::Simulation(SimulationError::Contact(ContactError::NoWayOut { .. }))) if oracle.leaps() => {
-                return Ok(());
+                return Ok(false);
             }
             // A bearing larger than the scene allows; defects that overlap.
-            Err(Refusal::Scene(_) | Refusal::Simulation(SimulationError::Surface(_))) => return Ok(()),
+            Err(Refusal::Scene(_) | Refusal::Simulation(SimulationError::Surface(_))) => return Ok(false),
             Err(error) => return Err(error.to_string()),
         };
         if oracle.leaps() {
@@ -149,7 +150,7 @@ fn random_rigid_paths_are_the_envelope() {
                 path_is_the_envelope(draw, &oracle, position_error, &own[side], &found.defects[side])?;
             }
         }
-        Ok(())
+        Ok(true)
     });
 }
 

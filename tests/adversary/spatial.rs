@@ -8,7 +8,7 @@ mod subject;
 use crate::case::{Damping, Motion, On};
 use crate::draw::{Draw, for_seeds};
 use crate::oracle::spatial::{Ball, Gyroscopic, SpatialBearing, SpatialCase, SpatialRun, Stop, random};
-use crate::units::{HORIZON, KEPT_PATH, LIMIT};
+use crate::units::{HORIZON, KEPT_PATH, LIMIT, differences};
 use std::collections::BTreeMap;
 use subject::{Kind, Subject, names, values};
 
@@ -43,13 +43,6 @@ fn units(bearing: &SpatialBearing, case: &SpatialCase, approach: f64) -> BTreeMa
     ])
 }
 
-fn largest_difference(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut BTreeMap<Kind, f64>) {
-    for (((_, kind), a), b) in names.iter().zip(a).zip(b) {
-        let entry = into.entry(*kind).or_insert(0.0);
-        *entry = entry.max((a - b).abs());
-    }
-}
-
 /// An oracle, another whose difference quotients go half as far, from a balance of its own, and what becomes of that
 /// one when it is pushed.
 struct Oracles<'a> {
@@ -76,7 +69,7 @@ impl<'a> Oracles<'a> {
         let (own, grown) = (BTreeMap::new(), BTreeMap::new());
         let mut oracles = Self { case, bearing, names: names(case), runs, own, grown, largest };
         let [fine, coarse, _] = oracles.values();
-        largest_difference(&oracles.names, &coarse, &fine, &mut oracles.own);
+        differences(&oracles.names, &coarse, &fine, &mut oracles.own);
         oracles
     }
 
@@ -93,8 +86,8 @@ impl<'a> Oracles<'a> {
         taken.into_iter().collect::<Result<(), _>>()?;
         self.largest = self.largest.max(deepest(&self.runs[0]));
         let [fine, coarse, pushed] = self.values();
-        largest_difference(&self.names, &coarse, &fine, &mut self.own);
-        largest_difference(&self.names, &pushed, &coarse, &mut self.grown);
+        differences(&self.names, &coarse, &fine, &mut self.own);
+        differences(&self.names, &pushed, &coarse, &mut self.grown);
         Ok(())
     }
 

@@ -112,7 +112,7 @@ pub fn units(bearing: &Bearing, case: &Case, largest: [f64; 2]) -> BTreeMap<Kind
 }
 
 /// Largest difference of each kind between two samples, and those before.
-pub fn differences(names: &[(String, Kind)], a: &[f64], b: &[f64], into: &mut BTreeMap<Kind, f64>) {
+pub fn differences<K: Copy + Ord>(names: &[(String, K)], a: &[f64], b: &[f64], into: &mut BTreeMap<K, f64>) {
     for (((_, kind), a), b) in names.iter().zip(a).zip(b) {
         let entry = into.entry(*kind).or_insert(0.0);
         *entry = entry.max((a - b).abs());

@@ -12,27 +12,21 @@
 // What helpers unwrap is a test's own set-up, and names say what its numbers are.
 #![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
 
-pub mod balance;
 mod bearing;
 pub mod case;
+pub mod contact;
 pub mod draw;
-pub mod envelope;
-pub mod growth;
-pub mod half_space;
-mod hertz;
-mod instant;
-pub mod linear;
-pub mod oil;
+pub mod motion;
 pub mod random_case;
-mod rates;
-mod ring_rates;
-pub mod run;
-pub mod signals;
 pub mod spatial;
 pub mod surface;
-pub mod surfaces;
-pub mod turning;
-mod uneven;
 
 pub use bearing::Bearing;
-pub use instant::{Acting, Contact, ELEMENTS, Outside, SENSOR, Seat};
+pub use contact::{growth, half_space, oil};
+pub use motion::instant::{Acting, Contact, ELEMENTS, Outside, SENSOR, Seat};
+pub use motion::{balance, linear, run, signals, turning};
+pub use surface::{envelope, surfaces};
+
+use contact::hertz;
+use motion::instant;
+use surface::uneven;

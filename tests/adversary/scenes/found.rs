@@ -36,14 +36,9 @@ fn three_elements_or_more_hold_a_shaft_wherever_they_stand() {
         for clearance in [-1.0, 0.0, 0.5, 5.0, 50.0] {
             for twelfth in 0..24 {
                 let cage = -90.0 + f64::from(twelfth) * 15.0;
-                let verdict = judge(&few_elements(count, cage, clearance));
-                let why = match verdict {
-                    Verdict::Agreed(_) => continue,
-                    Verdict::Refused(error) => error.to_string(),
-                    Verdict::Undecided(why) => why.to_owned(),
-                    Verdict::Failed(why) => why,
-                };
-                failed.push(format!("{count} elements at {cage} degrees, clearance {clearance} um: {why}"));
+                let why_not = judge(&few_elements(count, cage, clearance)).why_not();
+                let scene = format!("{count} elements at {cage} degrees, clearance {clearance} um");
+                failed.extend(why_not.map(|why| format!("{scene}: {why}")));
             }
         }
     }
@@ -59,12 +54,7 @@ fn preloaded_rings_go_together_as_far_as_a_soft_support_lets_them() {
     case.rings[0].load = [-0.2, 0.24];
     case.rings[1] = Ring { motion: Motion::Internal, mass: 3.0, stiffness: 4e4, ..case.rings[0] };
     case.rings[1].load = [0.0; 2];
-    match judge(&case) {
-        Verdict::Agreed(_) => {}
-        Verdict::Refused(error) => panic!("{error}"),
-        Verdict::Undecided(why) => panic!("{why}"),
-        Verdict::Failed(why) => panic!("{why}"),
-    }
+    assert_eq!(judge(&case).why_not(), None);
 }
 
 /// Outputs at the end of a step knew nothing of the accelerations that derivatives of inputs had given it: a ramp of
@@ -202,13 +192,9 @@ fn straight_rollers_start_at_any_cage_angle_under_either_damping() {
         for damping in [Damping::Proportional(draw.log(1e-7, 1e-4)), Damping::HuntCrossley(draw.log(0.01, 5.0))] {
             for _ in 0..12 {
                 let case = Case { damping, cage_deg: draw.between(-180.0, 180.0), ..slow.clone() };
-                let why = match judge(&case) {
-                    Verdict::Agreed(_) => continue,
-                    Verdict::Refused(error) => error.to_string(),
-                    Verdict::Undecided(why) => why.to_owned(),
-                    Verdict::Failed(why) => why,
-                };
-                return Err(format!("{damping:?} at {} degrees: {why}", case.cage_deg));
+                if let Some(why) = judge(&case).why_not() {
+                    return Err(format!("{damping:?} at {} degrees: {why}", case.cage_deg));
+                }
             }
         }
         Ok(())
@@ -229,13 +215,8 @@ fn agrees(seed: u64) {
 }
 
 fn agreed(seed: u64, verdict: Verdict) {
-    let why = match verdict {
-        Verdict::Agreed(_) => return,
-        // Bounces: the start has been judged before.
-        Verdict::Undecided("chaos") => return,
-        Verdict::Undecided(why) => why.to_owned(),
-        Verdict::Refused(error) => error.to_string(),
-        Verdict::Failed(why) => why,
-    };
-    panic!("seed {seed}: {why}");
+    // Bounces: the start has been judged before.
+    if !matches!(verdict, Verdict::Undecided("chaos")) {
+        assert_eq!(verdict.why_not(), None, "seed {seed}");
+    }
 }

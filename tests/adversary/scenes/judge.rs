@@ -33,6 +33,18 @@ pub enum Verdict {
     Failed(String),
 }
 
+impl Verdict {
+    /// Why a scene is not one that agreed.
+    pub fn why_not(self) -> Option<String> {
+        match self {
+            Self::Agreed(_) => None,
+            Self::Refused(error) => Some(error.to_string()),
+            Self::Undecided(why) => Some(why.to_owned()),
+            Self::Failed(why) => Some(why),
+        }
+    }
+}
+
 /// How well a scene agreed.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Measure {

@@ -115,6 +115,11 @@ impl<'a> Tally<'a> {
         self.entries.iter().filter_map(why).collect()
     }
 
+    /// How many agreed.
+    pub fn agreed(&self) -> usize {
+        self.agreed.len()
+    }
+
     /// The tables.
     pub fn markdown(&self) -> String {
         let (mut refused, mut undecided) = (BTreeMap::<_, (usize, &str)>::new(), BTreeMap::<_, usize>::new());

@@ -85,22 +85,9 @@ pub struct SpatialRing {
     pub inertia: [f64; 2],
 }
 
-/// A communication step.
-#[derive(Debug, Clone, Copy)]
-pub struct Step {
-    pub length: f64,
-    /// What the host sets before it; without, everything stays where it is.
-    pub host: Option<Host>,
-}
-
-/// Inputs with their derivatives.
-#[derive(Debug, Clone, Copy)]
-pub struct Host {
-    /// Speeds of shaft and housing (rad/s) with their derivatives.
-    pub speeds: [[f64; 2]; 2],
-    /// Of shaft and housing, along x, y, z and about x, y: load, or position, with its first and second derivative.
-    pub rings: [[[f64; 3]; 5]; 2],
-}
+/// As in the plane, along x, y, z and about x, y.
+pub type Step = crate::case::Step<5>;
+pub type Host = crate::case::Host<5>;
 
 impl SpatialRing {
     /// Held to the ground, without load.
@@ -188,11 +175,7 @@ impl SpatialCase {
         writeln!(text, "element_count = {}\ndegrees_of_freedom = {}", self.count, self.freedom).unwrap();
         writeln!(text, "element_inertia = \"{inertia}\"\ngyroscopic = \"{}\"", self.gyroscopic.key()).unwrap();
         text.push_str("[contact]\nlaw = \"hertz\"\n");
-        match self.damping {
-            Damping::HuntCrossley(chi) => writeln!(text, "damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}"),
-            Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
-        }
-        .unwrap();
+        text.push_str(&self.damping.toml());
         writeln!(text, "across_damping_s_m = {:?}", self.across).unwrap();
         writeln!(text, "[cage]\nslip = {:?}\ninitial_angle_deg = {:?}", self.slip, self.cage_deg).unwrap();
         text.push_str(&shape::tables(&self.defects));
@@ -204,12 +187,7 @@ impl SpatialCase {
     fn write_rings(&self, text: &mut String) {
         for (which, ring) in self.rings.iter().enumerate() {
             let name = ["shaft", "housing"][which];
-            let motion = match ring.motion {
-                Motion::Host => "host",
-                Motion::Internal => "internal",
-                Motion::Fixed => "fixed",
-            };
-            writeln!(text, "[{name}]\nmotion = \"{motion}\"").unwrap();
+            writeln!(text, "[{name}]\nmotion = \"{}\"", ring.motion.key()).unwrap();
             if let Some(speed) = [Some(self.speed_hz), self.housing_hz][which] {
                 writeln!(text, "speed_hz = {speed:?}").unwrap();
             }

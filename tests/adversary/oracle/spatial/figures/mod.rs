@@ -45,21 +45,25 @@ fn balanced(case: &SpatialCase, guess: [f64; 5]) -> (SpatialBearing, Balance) {
     (bearing, found)
 }
 
+/// ISO/TS 16281's example with a play (µm).
+fn of_the_standard(freedom: usize, play: f64, load: [f64; 5]) -> SpatialCase {
+    SpatialCase {
+        count: 7,
+        diameter_mm: 11.5,
+        pitch_mm: 43.5,
+        conformities: [0.52, 0.53],
+        setting: AxialSetting::Radial(0.5 * play),
+        hertz: [Some(3.073_702_31e10), Some(2.898_078_29e10)],
+        cage_deg: 0.0,
+        ..standing(freedom, load)
+    }
+}
+
 /// ISO/TS 16281's example: loads and tilts that public programs give, by exact circles.
 #[test]
 fn the_example_of_iso_16281_has_its_exact_displacements() {
     let of = |play: f64, load: [f64; 5], guess: [f64; 5]| {
-        let case = SpatialCase {
-            count: 7,
-            diameter_mm: 11.5,
-            pitch_mm: 43.5,
-            conformities: [0.52, 0.53],
-            setting: AxialSetting::Radial(0.5 * play),
-            modulus_gpa: 210.0,
-            hertz: [Some(3.073_702_31e10), Some(2.898_078_29e10)],
-            cage_deg: 0.0,
-            ..standing(5, load)
-        };
+        let case = SpatialCase { modulus_gpa: 210.0, ..of_the_standard(5, play, load) };
         let (_, found) = balanced(&case, guess);
         let y = &found.state;
         [y[0] * 1e6, y[1] * 1e6, y[2] * 1e6, y[3] * 1e3, y[4] * 1e3]
@@ -85,17 +89,7 @@ fn the_example_of_iso_16281_has_its_exact_displacements() {
 #[test]
 fn a_purely_radial_load_on_the_example_has_its_exact_displacement() {
     for (play, expected) in [(0.0, 15.114_774_2), (10.0, 21.229_430_3)] {
-        let mut case = standing(3, [1000.0, 0.0, 0.0, 0.0, 0.0]);
-        case = SpatialCase {
-            count: 7,
-            diameter_mm: 11.5,
-            pitch_mm: 43.5,
-            conformities: [0.52, 0.53],
-            setting: AxialSetting::Radial(0.5 * play),
-            hertz: [Some(3.073_702_31e10), Some(2.898_078_29e10)],
-            cage_deg: 0.0,
-            ..case
-        };
+        let mut case = of_the_standard(3, play, [1000.0, 0.0, 0.0, 0.0, 0.0]);
         case.rings[0].stiffness[1] = 1.0;
         let (_, found) = balanced(&case, [15e-6, 0.0, 0.0, 0.0, 0.0]);
         printed(found.state[0] * 1e6, expected, 1e-6);

@@ -136,27 +136,38 @@ pub struct Ring {
 
 /// A communication step.
 #[derive(Debug, Clone, Copy)]
-pub struct Step {
+pub struct Step<const AXES: usize = 2> {
     pub length: f64,
     /// What the host sets before it; without, everything stays where it is.
-    pub host: Option<Host>,
+    pub host: Option<Host<AXES>>,
 }
 
 /// Inputs with their derivatives.
 #[derive(Debug, Clone, Copy)]
-pub struct Host {
+pub struct Host<const AXES: usize = 2> {
     /// Speeds of shaft and housing (rad/s) with their derivatives.
     pub speeds: [[f64; 2]; 2],
-    /// Of shaft and housing, along x and y: load, or position, with its first and second derivative [N or m, s].
-    pub rings: [[[f64; 3]; 2]; 2],
+    /// Of shaft and housing, along x and y, in space along x, y, z and about x, y: load, or position, with its first and
+    /// second derivative [N or m, s].
+    pub rings: [[[f64; 3]; AXES]; 2],
 }
 
 impl Motion {
-    fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Host => "host",
             Self::Internal => "internal",
             Self::Fixed => "fixed",
+        }
+    }
+}
+
+impl Damping {
+    /// Its keys in the table of contacts.
+    pub(crate) fn toml(self) -> String {
+        match self {
+            Self::HuntCrossley(chi) => format!("damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}\n"),
+            Self::Proportional(tau) => format!("damping = \"proportional\"\ndamping_tau_s = {tau:?}\n"),
         }
     }
 }
@@ -242,11 +253,7 @@ impl Case {
         if let Some((force, cells, accuracy)) = self.grid {
             writeln!(text, "largest_force_n = {force:?}\ncells = {cells:?}\nmap_accuracy = {accuracy:?}").unwrap();
         }
-        match self.damping {
-            Damping::HuntCrossley(chi) => writeln!(text, "damping = \"hunt-crossley\"\ndamping_chi_s_m = {chi:?}"),
-            Damping::Proportional(tau) => writeln!(text, "damping = \"proportional\"\ndamping_tau_s = {tau:?}"),
-        }
-        .unwrap();
+        text.push_str(&self.damping.toml());
         if let Some(film) = &self.film {
             text.push_str(&film.toml());
         }

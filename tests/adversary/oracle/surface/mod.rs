@@ -1,5 +1,9 @@
 //! The surfaces that contacts may meet, as the contacts of one raceway meet them.
 
+pub mod envelope;
+pub mod surfaces;
+pub(crate) mod uneven;
+
 use crate::envelope::{Envelope, within_half_a_turn};
 use crate::turning::Turns;
 

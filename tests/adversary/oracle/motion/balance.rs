@@ -7,6 +7,7 @@ use crate::bearing::Bearing;
 use crate::case::{Case, Motion};
 use crate::instant::{Acting, Contact, ELEMENTS, Outside};
 use crate::run::{Pace, Run};
+use crate::spatial::vector::solve;
 use crate::surface::Stretches;
 use std::f64::consts::TAU;
 
@@ -191,28 +192,11 @@ fn stable(jacobian: &[Vec<f64>]) -> bool {
 fn marquardt(jacobian: &[Vec<f64>], force: &[f64], damping: f64) -> Option<Vec<f64>> {
     let n = jacobian.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let mut rows: Vec<Vec<f64>> = (0..n)
-        .map(|i| {
-            let mut row: Vec<f64> = (0..n).map(|k| dot(&jacobian[i], &jacobian[k])).collect();
-            row[i] += damping * row[i] + 1e-300;
-            row.push(-dot(&jacobian[i], force));
-            row
-        })
-        .collect();
-    for i in 0..n {
-        let pivot = (i..n).max_by(|&a, &b| rows[a][i].abs().total_cmp(&rows[b][i].abs()))?;
-        rows.swap(i, pivot);
-        if rows[i][i] == 0.0 {
-            return None;
-        }
-        for k in 0..n {
-            if k != i {
-                let share = rows[k][i] / rows[i][i];
-                for c in i..=n {
-                    rows[k][c] -= share * rows[i][c];
-                }
-            }
-        }
-    }
-    Some((0..n).map(|i| rows[i][n] / rows[i][i]).collect())
+    let row = |i: usize| {
+        let mut row: Vec<f64> = (0..n).map(|k| dot(&jacobian[i], &jacobian[k])).collect();
+        row[i] += damping * row[i] + 1e-300;
+        row
+    };
+    let right: Vec<f64> = (0..n).map(|i| -dot(&jacobian[i], force)).collect();
+    solve((0..n).map(row).collect(), &right)
 }
