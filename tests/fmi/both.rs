@@ -2,7 +2,9 @@
 
 use crate::two::any_host::{Host, Version};
 use crate::two::{Line, bits};
+use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi2::{Component, FmuState, Status};
+use std::ptr;
 
 pub(crate) type Call = fn(Component) -> Status;
 /// A function, what is said about it, and a call of it.
@@ -105,7 +107,7 @@ pub(crate) fn run<V: Version>(host: &Host<V>, first: u32, count: u32) -> Vec<Vec
         .collect()
 }
 
-const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
+pub(crate) const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
 
 /// A rewound instance repeats every bit.
 pub(crate) fn repeats_when_rewound<V: Version>() {
@@ -191,4 +193,97 @@ pub(crate) fn refuses_bytes_over_their_handle<V: Version>() {
         unsafe { (V::FUNCTIONS.deserialize)(host.c, base.cast_const().cast(), good.len(), base.add(zero).cast()) };
     assert_eq!((status, words), (Status::Error, before));
     assert!(host.last_message().contains("overlap"));
+}
+
+/// A panic fails its own instance and no other. Tests are built with the feature `panic-on-demand`.
+pub(crate) fn a_panic_fails_its_instance_alone<V: Version>() {
+    let (bad, good) = (Host::<V>::named("er16k-tb1", "panic on demand"), Host::<V>::started("er16k-tb1"));
+    bad.start();
+    // A saved state brings it back.
+    let state = bad.save();
+    bad.refuses(state, &["internal error: panic on demand"], |host| host.advance(0.0, 1e-4));
+    assert_eq!(bad.advance(0.0, 1e-4), Status::Error);
+    bad.refuses(state, &["not allowed in mode"], |host| host.advance(0.0, 1e-4));
+    assert_eq!(good.advance(0.0, 1e-4), Status::Ok);
+    assert_eq!(bad.all().len(), good.all().len());
+    // So does a reset.
+    assert_eq!((bad.advance(0.0, 1e-4), bad.reset()), (Status::Error, Status::Ok));
+    bad.start();
+}
+
+/// States that are NULL, invented, freed or another instance's are errors.
+pub(crate) fn refuses_states_of_nobody<V: Version>() {
+    let (host, other) = (Host::<V>::started("er16k-tb1"), Host::<V>::started("er16k-tb1"));
+    let (own, freed, foreign) = (host.save(), host.save(), other.save());
+    assert_eq!(host.free(freed), Status::Ok);
+    let mut list: Vec<FmuState> = vec![ptr::null_mut(), freed, foreign, host.c];
+    let invented = [1, 8, 24, 0x1234, usize::MAX, own.addr() ^ 16, own.addr() | 1].map(ptr::without_provenance_mut);
+    list.extend(invented.into_iter().filter(|state| *state != freed));
+    for state in list {
+        let words: &[&str] = if state.is_null() { &[] } else { &["not one of this instance's"] };
+        host.refuses(own, words, |host| host.restore(state));
+        let (mut size, mut handle) = (0, state);
+        // SAFETY: any handle may be passed; pointers to one value.
+        unsafe {
+            assert_eq!((V::FUNCTIONS.state_size)(host.c, state, &raw mut size), Status::Error);
+            assert_eq!((V::FUNCTIONS.serialize)(host.c, state, ptr::null_mut(), 0), Status::Error);
+            if !state.is_null() {
+                assert_eq!((V::FUNCTIONS.get_state)(host.c, &raw mut handle), Status::Error);
+                assert_eq!((V::FUNCTIONS.free_state)(host.c, &raw mut handle), Status::Error);
+            }
+        }
+        assert_eq!(handle, state);
+    }
+    assert_eq!((host.restore(own), other.restore(foreign)), (Status::Ok, Status::Ok));
+}
+
+/// An experiment needs a finite start and a later finite stop.
+pub(crate) fn experiments_are_finite<V: Version>() {
+    for (start, stop) in [
+        (f64::NAN, None),
+        (f64::INFINITY, None),
+        (0.0, Some(f64::NAN)),
+        (0.0, Some(0.0)),
+        (0.0, Some(-1.0)),
+        (0.0, Some(f64::INFINITY)),
+        (1.0, Some(1.0)),
+    ] {
+        assert_eq!(Host::<V>::of("6205-healthy").begin(None, start, stop), Status::Error, "{start} {stop:?}");
+    }
+}
+
+/// A tolerance of the host tightens the scene's and never loosens it.
+pub(crate) fn a_tolerance_tightens_and_never_loosens<V: Version>() {
+    let tolerance_after = |given: f64| {
+        let host = Host::<V>::of("er16k-tb1");
+        assert_eq!(host.begin(Some(given), 0.0, None), Status::Ok);
+        host.get(&[host.reference("solver.tolerance")]).unwrap()[0]
+    };
+    // The scene says 1e-5; 1e-12 is the smallest that may be set.
+    assert_eq!([1e-3, 1e-5, 1e-7, 1e-30].map(tolerance_after), [1e-5, 1e-5, 1e-7, 1e-12]);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(Host::<V>::of("er16k-tb1").begin(Some(bad), 0.0, None), Status::Error);
+    }
+}
+
+/// Values outside their range and NaN are discarded, all or none of a call, and change nothing.
+pub(crate) fn discards_values_outside_their_range<V: Version>() {
+    for scene in SCENES {
+        let host = Host::<V>::started(scene);
+        let (good, before) = (host.reference("shaft.speed"), bits(&host.all()));
+        for variable in host.table().iter().filter(|variable| variable.causality == Causality::Input) {
+            let Kind::Real { max: Some(max), min: Some(min), .. } = variable.kind else { panic!("{}", variable.name) };
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, max * 1.001, min * 1.001] {
+                // A good value before the bad one must not be taken either.
+                assert_eq!(host.set(&[good, variable.reference], &[12.5, value]), Status::Discard, "{}", variable.name);
+                let line = host.lines().pop().unwrap();
+                assert_eq!((line.status, line.category.as_str()), (Status::Discard, "logStatusDiscard"));
+                let limit = if variable.reference == good { "100000" } else { "" };
+                assert!(line.message.contains(&variable.name) && line.message.contains(limit), "{line:?}");
+            }
+        }
+        assert_eq!(bits(&host.all()), before);
+        // The run goes on.
+        assert_eq!(host.advance(0.0, 1e-5), Status::Ok);
+    }
 }

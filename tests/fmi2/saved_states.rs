@@ -105,27 +105,7 @@ fn bytes_that_lie_over_the_handle_they_are_to_give_are_refused() {
 
 #[test]
 fn null_invented_and_foreign_states_are_errors() {
-    let (host, other) = (Host::started("er16k-tb1"), Host::started("er16k-tb1"));
-    let (own, foreign) = (host.save(), other.save());
-    let mut list: Vec<FmuState> = vec![ptr::null_mut(), foreign, host.c];
-    list.extend([1, 8, 24, usize::MAX, own.addr() ^ 16, own.addr() | 1].map(ptr::without_provenance_mut));
-    for state in list {
-        assert_eq!(host.restore(state), Status::Error);
-        let mut size = 0;
-        let mut handle = state;
-        // SAFETY: any handle may be passed; pointers to one value.
-        unsafe {
-            assert_eq!(fmi2SerializedFMUstateSize(host.c, state, &raw mut size), Status::Error);
-            assert_eq!(fmi2SerializeFMUstate(host.c, state, ptr::null_mut(), 0), Status::Error);
-            if !state.is_null() {
-                assert_eq!(fmi2GetFMUstate(host.c, &raw mut handle), Status::Error);
-                assert_eq!(fmi2FreeFMUstate(host.c, &raw mut handle), Status::Error);
-            }
-        }
-        assert_eq!(handle, state);
-    }
-    assert_eq!(host.restore(own), Status::Ok);
-    assert_eq!(other.restore(foreign), Status::Ok);
+    both::refuses_states_of_nobody::<Two>();
 }
 
 #[test]

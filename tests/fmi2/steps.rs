@@ -1,6 +1,7 @@
 //! Time: experiments, communication points, steps, and what is told about them.
 
-use crate::two::{Host, Resources};
+use crate::both;
+use crate::two::{Host, Resources, Two};
 use brinell_fmi::fmi2::*;
 use std::ffi::CStr;
 use std::ptr;
@@ -8,17 +9,7 @@ use std::sync::Arc;
 
 #[test]
 fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
-    for (start, stop) in [
-        (f64::NAN, None),
-        (f64::INFINITY, None),
-        (0.0, Some(f64::NAN)),
-        (0.0, Some(0.0)),
-        (0.0, Some(-1.0)),
-        (0.0, Some(f64::INFINITY)),
-    ] {
-        let host = Host::of("6205-healthy");
-        assert_eq!(host.setup(None, start, stop), Status::Error, "{start} {stop:?}");
-    }
+    both::experiments_are_finite::<Two>();
     let host = Host::of("6205-healthy");
     assert_eq!(host.setup(Some(1e-4), -5.0, Some(-4.0)), Status::Ok);
     // A second call takes the place of the first.
@@ -28,16 +19,7 @@ fn an_experiment_needs_a_finite_start_and_a_later_finite_stop() {
 
 #[test]
 fn a_tolerance_of_the_host_tightens_the_scenes_and_never_loosens_it() {
-    let tolerance_after = |given: f64| {
-        let host = Host::of("er16k-tb1");
-        assert_eq!(host.begin(Some(given), 0.0, None), Status::Ok);
-        host.get(&[host.reference("solver.tolerance")]).unwrap()[0]
-    };
-    // The scene says 1e-5; 1e-12 is the smallest that may be set.
-    assert_eq!([1e-3, 1e-5, 1e-7, 1e-30].map(tolerance_after), [1e-5, 1e-5, 1e-7, 1e-12]);
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(Host::of("er16k-tb1").setup(Some(bad), 0.0, None), Status::Error);
-    }
+    both::a_tolerance_tightens_and_never_loosens::<Two>();
 }
 
 #[test]

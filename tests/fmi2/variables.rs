@@ -1,11 +1,10 @@
 //! Reading and setting variables.
 
-use crate::two::Host;
+use crate::both::{self, SCENES};
+use crate::two::{Host, Two};
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi2::*;
 use std::ptr;
-
-const SCENES: [&str; 3] = ["er16k-tb1", "6205-hosted", "6205-epps"];
 
 #[test]
 fn initialization_shows_the_start_values_of_the_table() {
@@ -109,25 +108,7 @@ fn unknown_references_and_wrong_types_are_errors_that_say_so() {
 
 #[test]
 fn values_outside_their_range_and_nan_are_discarded_and_change_nothing() {
-    for scene in SCENES {
-        let host = Host::started(scene);
-        let all = host.reals();
-        let before = host.get(&all).unwrap();
-        for variable in host.table().iter().filter(|variable| variable.causality == Causality::Input) {
-            let Kind::Real { max: Some(max), min: Some(min), .. } = variable.kind else { panic!("{}", variable.name) };
-            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, max * 1.001, min * 1.001] {
-                // A good value before the bad one must not be taken either.
-                let good = host.reference("shaft.speed");
-                assert_eq!(host.set(&[good, variable.reference], &[12.5, value]), Status::Discard, "{}", variable.name);
-                let line = host.lines().pop().unwrap();
-                assert_eq!((line.status, line.category.as_str()), (Status::Discard, "logStatusDiscard"));
-                assert!(line.message.contains(&variable.name), "{line:?}");
-            }
-        }
-        assert_eq!(host.get(&all).unwrap(), before);
-        // The run goes on.
-        assert_eq!(host.step(0.0, 1e-5), Status::Ok);
-    }
+    both::discards_values_outside_their_range::<Two>();
 }
 
 #[test]

@@ -141,10 +141,5 @@ fn an_instance_of_one_version_is_none_of_the_other() {
 
 #[test]
 fn a_panic_inside_a_step_reaches_the_host_as_a_status_and_a_reset_mends_it() {
-    let host = Host::named("6205-healthy", "panic on demand");
-    host.start();
-    assert_eq!(host.do_step(0.0, 1e-5), Err(Status::Error));
-    assert!(host.last_message().contains("internal error: panic on demand"));
-    assert_eq!(host.reset(), Status::Ok);
-    host.start();
+    both::a_panic_fails_its_instance_alone::<Three>();
 }

@@ -29,12 +29,7 @@ fn a_state_in_bytes_goes_from_one_version_of_fmi_to_the_other() {
 
 #[test]
 fn invented_freed_and_foreign_states_are_errors_under_fmi_3() {
-    let (host, other) = (Host::started("6205-healthy"), Host::started("6205-healthy"));
-    let (kept, freed) = (host.save(), host.save());
-    assert_eq!(host.free(freed), Status::Ok);
-    for wrong in [freed, other.save(), std::ptr::without_provenance_mut(0x1234)] {
-        host.refuses(kept, &["not one of this instance's"], |h| h.restore(wrong));
-    }
+    both::refuses_states_of_nobody::<Three>();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Steps: the bits of FMI 2.0, what `fmi3DoStep` gives, and what it refuses.
 
-use crate::both::run;
-use crate::three::Host;
+use crate::both::{self, run};
+use crate::three::{Host, Three};
 use crate::two;
 use brinell_fmi::fmi3::*;
 use std::ptr;
@@ -49,20 +49,8 @@ fn a_wrong_point_a_wrong_step_and_one_past_the_stop_time_are_errors_with_the_num
 
 #[test]
 fn start_and_stop_must_be_finite_and_a_tolerance_can_only_tighten() {
-    for (tolerance, start, stop) in
-        [(None, f64::NAN, None), (None, 0.0, Some(f64::NAN)), (None, 1.0, Some(1.0)), (Some(0.0), 0.0, None)]
-    {
-        let host = Host::of("6205-healthy");
-        assert_eq!(host.begin(tolerance, start, stop), Status::Error, "{tolerance:?} {start} {stop:?}");
-    }
-    let host = Host::of("6205-healthy");
-    let tolerance = host.reference("solver.tolerance");
-    let own = host.get(&[tolerance]).unwrap()[0];
-    assert_eq!(host.begin(Some(1e-2), 0.0, None), Status::Ok);
-    assert_eq!(host.get(&[tolerance]).unwrap(), [own]);
-    assert_eq!(host.reset(), Status::Ok);
-    assert_eq!(host.begin(Some(1e-9), 0.0, None), Status::Ok);
-    assert_eq!(host.get(&[tolerance]).unwrap(), [1e-9]);
+    both::experiments_are_finite::<Three>();
+    both::a_tolerance_tightens_and_never_loosens::<Three>();
 }
 
 #[test]

@@ -176,7 +176,8 @@ fn an_input_set_in_an_update_acts_from_there_on() {
             }
             None
         });
-        let host = if updated { Host::updated("6205-hosted", &inputs, on_update) } else { Host::started("6205-hosted") };
+        let host =
+            if updated { Host::updated("6205-hosted", &inputs, on_update) } else { Host::started("6205-hosted") };
         for n in 0..count {
             let point = f64::from(n) * step;
             assert_eq!(host.set(&inputs, &curve(point)), Status::Ok);

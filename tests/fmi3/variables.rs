@@ -1,7 +1,7 @@
 //! Reading and setting: scalars, arrays, types, and what is refused.
 
-use crate::both::{probes, refuse};
-use crate::three::Host;
+use crate::both::{self, probes, refuse};
+use crate::three::{Host, Three};
 use crate::two::{self, Resources, bits};
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi3::*;
@@ -93,17 +93,7 @@ fn unknown_references_wrong_types_and_what_cannot_be_set_are_errors_that_say_so(
 
 #[test]
 fn values_outside_their_range_and_nan_are_discarded_under_fmi_3_and_change_nothing() {
-    let host = Host::started("er16k-tb1");
-    let (speed, load) = (host.reference("shaft.speed"), host.reference("shaft.load.y"));
-    let before = bits(&host.all());
-    for wrong in [f64::NAN, f64::INFINITY, 1e6] {
-        host.lines();
-        assert_eq!(host.set(&[load, speed], &[-400.0, wrong]), Status::Discard);
-        let message = host.last_message();
-        assert!(message.contains("shaft.speed") && message.contains("100000"), "{message}");
-        assert_eq!(bits(&host.all()), before, "all or none");
-    }
-    host.step(0.0, 1e-4);
+    both::discards_values_outside_their_range::<Three>();
 }
 
 #[test]
