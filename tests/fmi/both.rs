@@ -50,8 +50,8 @@ pub(crate) fn in_mode<V: Version>(mode: char, beforehand: impl Fn(&Host<V>)) -> 
     host
 }
 
-/// Each function is allowed in the modes that its word names and in no other; `look` sees its status and what was logged
-/// last.
+/// Each function is allowed in the modes that its word names and in no other; `look` sees its status and what was
+/// logged last.
 pub(crate) fn allowed_in_their_modes<V: Version>(
     probes: &[Probe],
     beforehand: impl Fn(&Host<V>),

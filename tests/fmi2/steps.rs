@@ -64,8 +64,8 @@ fn a_step_ends_exactly_where_the_host_computes_it() {
     }
 }
 
-/// A step past a stop time a millisecond after the start is an error, and one that ends there is not: ten added tenths of
-/// a millisecond are more than a millisecond by rounding.
+/// A step past a stop time a millisecond after the start is an error, and one that ends there is not: ten added tenths
+/// of a millisecond are more than a millisecond by rounding.
 fn ends_at_the_stop_time(start: f64) {
     let host = Host::started_at("6205-healthy", start, Some(start + 1e-3));
     let mut time = start;

@@ -99,8 +99,8 @@ fn sensible(w: &Walker, chance: &mut Chance, patience: usize) -> Call {
 /// How seldom in a round a call is none that a host would make: often, or so seldom that runs become long.
 const PATIENCE: [usize; 2] = [3, 60];
 
-/// One call of one instance, which is any of all once in `patience` calls. One that it has freed is replaced, and goes on
-/// with the other's counts.
+/// One call of one instance, which is any of all once in `patience` calls. One that it has freed is replaced, and goes
+/// on with the other's counts.
 fn call(w: &mut Walker, chance: &mut Chance, patience: usize, others: &Strangers) {
     if chance.one_in(patience) {
         let (.., call) = TABLE[chance.below(TABLE.len())];

@@ -185,8 +185,8 @@ impl<'w> Walker<'w> {
         [self.folder, self.begun_in].contains(&Folder::Full)
     }
 
-    /// Looks at the status and the log of a call, of which these statuses are expected where the function is allowed and
-    /// an error elsewhere. True if the call has had its effect.
+    /// Looks at the status and the log of a call, of which these statuses are expected where the function is allowed
+    /// and an error elsewhere. True if the call has had its effect.
     pub(super) fn judge(
         &mut self,
         function: &'static str,

@@ -15,18 +15,20 @@
 mod bearing;
 pub mod case;
 pub mod contact;
-pub mod draw;
+mod elimination;
+mod instant;
 pub mod motion;
 pub mod random_case;
 pub mod spatial;
 pub mod surface;
+pub mod turning;
 
 pub use bearing::Bearing;
 pub use contact::{growth, half_space, oil};
-pub use motion::instant::{Acting, Contact, ELEMENTS, Outside, SENSOR, Seat};
-pub use motion::{balance, linear, run, signals, turning};
-pub use surface::{envelope, surfaces};
+pub use instant::{Acting, Contact, ELEMENTS, Outside, SENSOR, Seat};
+pub use motion::{balance, linear, run, signals, surfaces};
+pub use random_case::draw;
+pub use surface::envelope;
 
 use contact::hertz;
-use motion::instant;
 use surface::uneven;

@@ -147,8 +147,8 @@ pub struct Step<const AXES: usize = 2> {
 pub struct Host<const AXES: usize = 2> {
     /// Speeds of shaft and housing (rad/s) with their derivatives.
     pub speeds: [[f64; 2]; 2],
-    /// Of shaft and housing, along x and y, in space along x, y, z and about x, y: load, or position, with its first and
-    /// second derivative [N or m, s].
+    /// Of shaft and housing, along x and y, in space along x, y, z and about x, y: load, or position, with its first
+    /// and second derivative [N or m, s].
     pub rings: [[[f64; 3]; AXES]; 2],
 }
 

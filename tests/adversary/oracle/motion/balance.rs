@@ -5,9 +5,9 @@
 
 use crate::bearing::Bearing;
 use crate::case::{Case, Motion};
+use crate::elimination::solve;
 use crate::instant::{Acting, Contact, ELEMENTS, Outside};
 use crate::run::{Pace, Run};
-use crate::spatial::vector::solve;
 use crate::surface::Stretches;
 use std::f64::consts::TAU;
 

@@ -4,6 +4,7 @@
 //! stiffness, a speed by how far it turns the cage in the time that can be computed. Otherwise most scenes would be
 //! either rigid or broken.
 
+pub mod draw;
 mod inputs;
 mod parts;
 mod scale;

@@ -11,7 +11,8 @@
 use super::bearing::{Ball, Outside, SpatialBearing};
 use super::case::Gyroscopic;
 use super::contact::{Dampers, Pose, Touch};
-use super::vector::{Vector, add, cross, dot, solve, subtract, times};
+use super::vector::{Vector, add, cross, dot, subtract, times};
+use crate::elimination::solve;
 use crate::turning::quadratic;
 
 /// Longest step of a ball (m).

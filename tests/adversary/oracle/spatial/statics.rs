@@ -6,8 +6,9 @@
 use super::bearing::{BALLS, Ball, OF_RING, Outside, SpatialBearing};
 use super::case::Host;
 use super::contact::{Dampers, Pose};
-use super::vector::{dot, solve};
+use super::vector::dot;
 use crate::case::Motion;
+use crate::elimination::solve;
 
 /// Longest step of a ring (m).
 const LONGEST: f64 = 10e-6;

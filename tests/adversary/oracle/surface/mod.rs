@@ -1,7 +1,6 @@
 //! The surfaces that contacts may meet, as the contacts of one raceway meet them.
 
 pub mod envelope;
-pub mod surfaces;
 pub(crate) mod uneven;
 
 use crate::envelope::{Envelope, within_half_a_turn};
