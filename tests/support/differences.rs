@@ -12,11 +12,13 @@ pub fn reals(simulation: &mut Simulation, references: &[u32]) -> Vec<f64> {
     values
 }
 
-/// A derivative of an output: as it is given, by differences, and the largest of the values that these are of.
+/// A derivative of an output: as it is given, by differences, by how much these change from one to the next, and the
+/// largest of the values that they are of.
 #[derive(Debug, Clone, Copy)]
 pub struct Slope {
     pub given: f64,
     pub found: f64,
+    pub bend: f64,
     pub size: f64,
 }
 
@@ -35,13 +37,13 @@ pub fn by_input(simulation: &mut Simulation, outputs: &[&str], input: &str, h: f
     let (unknowns, known) = (references(simulation, outputs), references(simulation, &[input]));
     let (mut given, middle) = (vec![f64::NAN; unknowns.len()], simulation.get(input).unwrap());
     simulation.directional_derivative(&unknowns, &known, &[1.0], &mut given).unwrap();
-    let [before, after, _] = [middle - h, middle + h, middle].map(|value| {
+    let [before, after, here] = [middle - h, middle + h, middle].map(|value| {
         simulation.set_reals(&known, &[value]).unwrap();
         reals(simulation, &unknowns)
     });
     let slope = |i: usize| {
-        let (a, b) = (before[i], after[i]);
-        Slope { given: given[i], found: (b - a) / (2.0 * h), size: a.abs().max(b.abs()) }
+        let (a, b, bend) = (before[i], after[i], (after[i] + before[i] - 2.0 * here[i]).abs() / h);
+        Slope { given: given[i], found: (b - a) / (2.0 * h), bend, size: a.abs().max(b.abs()) }
     };
     (0..given.len()).map(slope).collect()
 }
@@ -61,7 +63,7 @@ pub fn by_time(simulation: &mut Simulation, outputs: &[&str], h: f64) -> Vec<Slo
     });
     let slope = |i: usize| {
         let found = (4.0 * near[i] - far[i] - 3.0 * now[i]) / (2.0 * h);
-        Slope { given: given[i], found, size: now[i].abs() }
+        Slope { given: given[i], found, bend: (far[i] + now[i] - 2.0 * near[i]).abs() / h, size: now[i].abs() }
     };
     (0..given.len()).map(slope).collect()
 }

@@ -1,6 +1,6 @@
 //! Derivatives of outputs: at the start by all that the start depends on, and by time where defects inside are met.
 
-use crate::support::differences::{by_input, reals, references};
+use crate::support::differences::{by_input, by_time, reals};
 use crate::support::{Named, shipped, shipped_as_it_is, straight};
 use brinell::scene::{
     Bearing, ContactLaw, Damping, Defect, DefectOn, DefectShape, DrawnDiameters, Ring, Scene, Waviness, WavyBody,
@@ -168,33 +168,19 @@ fn the_stiffness_beside_an_edge_inside_is_the_slope_of_the_force() {
 #[test]
 fn the_stiffness_over_a_defect_inside_changes_with_time_as_its_derivative_says() {
     let mut simulation = simulation(shipped_as_it_is("nu205-inner"));
-    let references = references(&simulation, &STIFFNESSES);
     simulation.initialize(0.0).unwrap();
-    let mut compared = 0;
+    let (mut compared, step) = (0, 1e-8);
     for _ in 0..160 {
         simulation.step(2.5e-4).unwrap();
-        let (saved, mut given) = (simulation.save(), [f64::NAN; 4]);
-        simulation.output_derivatives(&references, &[1; 4], &mut given).unwrap();
-        let step = 1e-8;
-        let [now, next, last] = [0.0, 1.0, 2.0].map(|steps| {
-            simulation.restore(&saved).unwrap();
-            if steps > 0.0 {
-                simulation.step(steps * step).unwrap();
-            }
-            reals(&mut simulation, &references)
-        });
-        simulation.restore(&saved).unwrap();
-        for i in 0..4 {
-            let (first, second) = ((next[i] - now[i]) / step, (last[i] - next[i]) / step);
-            let expected = 1.5 * first - 0.5 * second;
+        let slopes = by_time(&mut simulation, &STIFFNESSES, step);
+        for (slope, name) in slopes.iter().zip(STIFFNESSES) {
             // Where the slope itself changes within the step a quotient says little: a contact begins, or nearly.
-            if (first - second).abs() > 2e-2 * expected.abs() {
+            if slope.bend > 2e-2 * slope.found.abs() {
                 continue;
             }
             // The rest of truncation is (2e-2)² of it; rounding of 1e8 N/m over 1e-8 s.
-            let allowed = 2e-3 * expected.abs() + 1e-13 * now[3].abs() / step;
-            let name = STIFFNESSES[i];
-            assert!((given[i] - expected).abs() <= allowed, "{name}: {} given, {expected} found", given[i]);
+            let allowed = 2e-3 * slope.found.abs() + 1e-13 * slopes[3].size / step;
+            assert!(slope.miss() <= allowed, "{name}: {slope:?}");
             compared += 1;
         }
     }
@@ -284,31 +270,22 @@ fn straight_rollers_that_rest_on_the_inner_ring_follow_it_at_every_cage_angle() 
     scene.sensors.clear();
     let count = scene.bearing.element_count;
     let mut simulation = simulation(scene);
-    let paths: Vec<u32> = (1..=count).map(|j| simulation.reference(&format!("element[{j}].path")).unwrap()).collect();
+    let paths: Vec<String> = (1..=count).map(|j| format!("element[{j}].path")).collect();
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
     simulation.set("shaft.x", 4e-6).unwrap();
     // Of 0.03 N of weight a damper of 1.25e-5 s carries more from one number to the next.
     simulation.set("shaft.vy", 1e-3).unwrap();
-    let y = simulation.reference("shaft.y").unwrap();
-    let (mut carried, step) = (0, 1e-10);
+    let mut carried = 0;
     for k in 0..24 {
         simulation.set("cage.initial_angle", f64::from(k) * std::f64::consts::TAU / 24.0).unwrap();
-        let mut given = vec![f64::NAN; count];
-        simulation.directional_derivative(&paths, &[y], &[1.0], &mut given).unwrap();
-        let [below, at, above] = [-step, 0.0, step].map(|y_now| {
-            simulation.set_reals(&[y], &[y_now]).unwrap();
-            reals(&mut simulation, &paths)
-        });
-        simulation.set_reals(&[y], &[0.0]).unwrap();
-        for j in 0..count {
-            let sides = [(at[j] - below[j]) / step, (above[j] - at[j]) / step];
+        for (slope, path) in by_input(&mut simulation, &paths, "shaft.y", 1e-10).iter().zip(&paths) {
             // A roller that begins to be carried has two derivatives.
-            if (sides[0] - sides[1]).abs() > 1e-3 {
+            if slope.bend > 1e-3 {
                 continue;
             }
-            let expected = 0.5 * (sides[0] + sides[1]);
             // A path of 30 µm is known to 3e-21 m, and the ring's distance curves over its play: 1e-10/0.02.
-            assert!((given[j] - expected).abs() < 1e-4, "angle {k}, roller {j}: {} {expected}", given[j]);
-            carried += usize::from(expected.abs() > 0.1);
+            assert!(slope.miss() < 1e-4, "angle {k}, {path}: {slope:?}");
+            carried += usize::from(slope.found.abs() > 0.1);
         }
     }
     assert!(carried > 24, "{carried}");

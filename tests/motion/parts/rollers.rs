@@ -1,8 +1,7 @@
 //! Cylindrical rollers in motion: closed forms at the extremes, energy, both methods, defects of every body.
 
+use crate::support::energy::pushed;
 use crate::support::{Named, furthest, shipped, straight};
-use brinell::contact::law::elastic_law;
-use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::line_contact::line_constant;
 use brinell::scene::{Bearing, ContactLaw, Damping, DefectOn, Ring, Scene};
 use brinell::simulation::Method;
@@ -78,30 +77,9 @@ fn a_crowned_roller_without_damping_keeps_its_energy() {
     (scene.bearing.radial_clearance, scene.gravity, scene.shaft_speed) = (-10e-6, [0.0; 2], 0.0);
     scene.contact.damping = Damping::HuntCrossley(0.0);
     scene.tolerance = 1e-7;
-    let law = elastic_law(&scene.bearing, RacewaySide::Outer);
-    let (mass, z) = (scene.bearing.mass_of_element(), 13usize);
-    // ∫Q dδ by the trapezoidal rule, whose error of 1e-8 is far below what is looked for.
-    let stored = |force: f64| {
-        let (delta, steps) = (law.approach_under(force), 20_000);
-        let at = |i: u32| law.elastic(delta * f64::from(i) / f64::from(steps));
-        let inside: f64 = (1..steps).map(at).sum();
-        (inside + 0.5 * at(steps)) * delta / f64::from(steps)
-    };
-    let mut bearing = Named::started(scene);
-    let energy = |b: &mut Named| {
-        let w = b.0.state_vector()[z.next_multiple_of(8)];
-        let forces = b.all(["element[1].force.inner", "element[1].force.outer"]);
-        forces.map(stored).iter().sum::<f64>() + 0.5 * mass * w * w
-    };
-    let rest = energy(&mut bearing);
+    let mut bearing = Named::started(scene.clone());
     // Element 1 is under −y: the ring that moves down at once presses it.
-    bearing.set("shaft.y", -3e-6);
-    let start = energy(&mut bearing);
-    let mut drift: f64 = 0.0;
-    for _ in 0..100 {
-        bearing.run(1e-4, 1);
-        drift = drift.max((energy(&mut bearing) - start).abs());
-    }
+    let [rest, start, _, drift] = pushed(&mut bearing, &scene, ("shaft.y", -3e-6));
     // Some 400 periods at a tolerance of 1e-7 of the approach.
     let share = drift / (start - rest).abs();
     assert!(start > 1.05 * rest && share < 1e-3, "{share}: {rest} {start}");
