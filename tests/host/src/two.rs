@@ -26,6 +26,7 @@ functions! {
 }
 
 #[repr(C)]
+#[derive(Debug)]
 struct Callbacks {
     logger: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, *const c_char),
     allocate: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
@@ -45,12 +46,6 @@ pub struct Instance {
     /// The instance calls them.
     _callbacks: Box<Callbacks>,
     log: Box<Log>,
-}
-
-impl std::fmt::Debug for Callbacks {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Callbacks")
-    }
 }
 
 impl Instance {
@@ -149,11 +144,6 @@ impl Instance {
     pub fn terminate(&mut self) -> Result<(), HostError> {
         // SAFETY: see `initialize`.
         self.answer("fmi2Terminate", unsafe { (self.functions.terminate)(self.component) })
-    }
-
-    /// What the FMU has logged so far.
-    pub fn log(&self) -> Vec<String> {
-        self.log.lock().map(|log| log.clone()).unwrap_or_default()
     }
 
     fn answer(&self, function: &'static str, status: c_int) -> Result<(), HostError> {
