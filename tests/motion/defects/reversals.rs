@@ -17,7 +17,7 @@ fn pressed(law: ContactLaw, shape: DefectShape) -> Scene {
     let fixed = Ring::fixed();
     (scene.shaft, scene.housing, scene.sensors) = (fixed, fixed, Vec::new());
     scene.bearing.radial_clearance = -25e-6;
-    // 2200 N on the smooth raceway; entering and leaving the defect add to it.
+    // 1258 N on the smooth raceway; entering and leaving the defect add to it.
     scene.contact.largest_force = Some(4000.0);
     (scene.contact.law, scene.tolerance) = (law, 1e-9);
     scene.defects = vec![Defect::outer(-FRAC_PI_2, shape)];
@@ -84,7 +84,7 @@ fn an_element_that_enters_a_deep_spall_and_turns_back_is_on_the_smooth_raceway_a
     let scene = pressed(ContactLaw::Hertz, line_spall(100e-6));
     for (angle, turn, time) in [(-HALF - 0.03, -HALF + 0.01, 0.02), (HALF + 0.03, HALF - 0.08, 0.03)] {
         let force = compare(Swing::there_and_back(angle, turn, time), 400, &scene);
-        assert!(force > 200.0, "{force}");
+        assert!(force > 1200.0, "{force}");
     }
 }
 
@@ -92,7 +92,8 @@ fn an_element_that_enters_a_deep_spall_and_turns_back_is_on_the_smooth_raceway_a
 fn an_element_that_leaves_a_deep_spall_and_turns_back_hangs_on_its_edge_again() {
     let scene = pressed(ContactLaw::Hertz, line_spall(100e-6));
     let force = compare(Swing::there_and_back(HALF - 0.015, HALF + 0.03, 0.02), 400, &scene);
-    assert!(force < 1.0, "{force}");
+    // Of 1258 N on the smooth raceway and none over the floor.
+    assert!((100.0..1000.0).contains(&force), "{force}");
 }
 
 #[test]
