@@ -3,7 +3,7 @@
 Nothing here is needed to use an FMU; it only keeps scene files out of the examples' way.
 """
 
-import contextlib
+import argparse
 import os
 import shlex
 import shutil
@@ -22,22 +22,15 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes"
 # Where the wheel is not installed.
 sys.path.append(str(ROOT / "fmu-build/module"))
+from brinell.figures import whole  # noqa: E402
 from brinell.host import Bearing, Instance, Numbers, unzipped  # noqa: E402, F401
 
 
-@contextlib.contextmanager
-def whole(path):
-    """A file to write that takes the name `path` when all is written: a full disk leaves what was there before."""
-    path = Path(path)
-    part = path.with_name(f"new-{os.getpid()}-{path.name}")
-    try:
-        yield part
-        os.replace(part, path)
-    except OSError as error:
-        why = f"{path} was not written, what was there before is unchanged: {error.strerror}; choose another folder"
-        raise OSError(error.errno, why) from error
-    finally:
-        part.unlink(missing_ok=True)
+def parser(about):
+    """The command line of an example: the first line of its text, and the folder that it writes to."""
+    found = argparse.ArgumentParser(description=about.splitlines()[0])
+    found.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
+    return found
 
 
 def changed_scene(base, name, changes, folder):
@@ -45,7 +38,8 @@ def changed_scene(base, name, changes, folder):
 
     None takes a table or a key away. Gives the new file.
     """
-    base = Path(base)
+    base, folder = Path(base), Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
     scene = tomllib.loads(base.read_text(encoding="utf-8"))
     scene["name"] = name
     for key, value in changes.items():
@@ -57,22 +51,20 @@ def changed_scene(base, name, changes, folder):
             table.pop(last, None)
         else:
             table[last] = value
-    tables = {key: value for key, value in scene.items() if isinstance(value, dict)}
-    several = {
-        key: value for key, value in scene.items() if isinstance(value, list) and value and isinstance(value[0], dict)
-    }
-    for defect in several.get("defect", [tables.get("defect", {})]):
-        # A scene names a file beside it: that of the base scene, or one that is in the folder already.
-        if "profile" in defect and (base.parent / defect["profile"]).is_file():
-            Path(folder).mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(base.parent / defect["profile"], Path(folder) / defect["profile"])
-    lines = [f"{key} = {toml(value)}" for key, value in scene.items() if key not in tables and key not in several]
-    heads = [(f"[{key}]", table) for key, table in tables.items()]
-    heads += [(f"[[{key}]]", table) for key, all_of_them in several.items() for table in all_of_them]
+    lines, heads = [], []
+    for key, value in scene.items():
+        if isinstance(value, dict):
+            heads.append((f"[{key}]", value))
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            heads += [(f"[[{key}]]", table) for table in value]
+        else:
+            lines.append(f"{key} = {toml(value)}")
     for head, table in heads:
-        lines += ["", head, *(f"{name} = {toml(value)}" for name, value in table.items())]
-    path = Path(folder) / f"{name}.toml"
-    path.parent.mkdir(parents=True, exist_ok=True)
+        lines += ["", head, *(f"{key} = {toml(value)}" for key, value in table.items())]
+        # A scene names a file beside it: that of the base scene, or one that is in the folder already.
+        if "defect" in head and "profile" in table and (base.parent / table["profile"]).is_file():
+            shutil.copyfile(base.parent / table["profile"], folder / table["profile"])
+    path = folder / f"{name}.toml"
     with whole(path) as part:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path
@@ -99,19 +91,20 @@ def program():
     return [installed] if installed else ["cargo", "fmu"]
 
 
+def healthy_and_spalled(folder):
+    """Scenes of an ER16K whose shaft the host moves."""
+    base = SCENES / "er16k-tb1-hosted-shaft.toml"
+    healthy = changed_scene(base, "er16k-hosted-shaft", {"defect": None, "contact": None}, folder)
+    return [healthy, changed_scene(base, "er16k-tb1-hosted-shaft", {}, folder)]
+
+
 def build(scenes, folder, *options):
     """Builds the FMUs of scene files. Gives their paths: each has its scene's name, whatever the file's is.
 
     `options` are words of `brinell build`, as "--fmi", "3".
     """
-    command = [
-        *program(),
-        "build",
-        *(str(Path(scene).resolve()) for scene in scenes),
-        "-o",
-        str(Path(folder).resolve()),
-        *options,
-    ]
+    files = [str(Path(scene).resolve()) for scene in scenes]
+    command = [*program(), "build", *files, "-o", str(Path(folder).resolve()), *options]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     names = [tomllib.loads(Path(scene).read_text(encoding="utf-8"))["name"] for scene in scenes]
     return [Path(folder) / f"{name}.fmu" for name in names]

@@ -1,8 +1,9 @@
 """How the examples' figures look, and how they are written: the same bytes from the same numbers."""
 
+import bearing  # noqa: F401, where the package is not installed
 import matplotlib
 import numpy as np
-from bearing import whole
+from brinell.figures import written
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -45,8 +46,4 @@ def curve(axis, time, values, colour, label, turns):
 
 
 def save(figure, stem):
-    for suffix in ("svg", "png"):
-        metadata = {"Date": None} if suffix == "svg" else {"Software": None}
-        with whole(f"{stem}.{suffix}") as part:
-            figure.savefig(part, dpi=150, metadata=metadata)
-    plt.close(figure)
+    list(written(figure, stem))

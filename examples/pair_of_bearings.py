@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A rigid shaft in two preloaded angular contact bearings: error over host and step, and the system as an SSP file.
 
-    python examples/pair_of_bearings.py [--build] [--short] [--mounted O] [-o target/examples]
+    python examples/pair_of_bearings.py [--build] [--ssp 2.0] [--short] [--mounted O] [-o target/examples]
 
 Both bearings are one FMU, of scenes/7205-pair.toml; the right one is mounted the other way by its parameter
 `bearing.contact_angle`. `--mounted` says how: O back to back, X face to face, T in tandem. The shaft (3 kg, 60 mm
@@ -20,16 +20,13 @@ The error is that of all five coordinates of the shaft, rms over rms of their wa
 bearings, against `tangent` at half a microsecond.
 """
 
-import argparse
 import math
-from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Instance, build, percent
-from fmpy.fmi1 import FMICallException
-from fmpy.ssp.simulation import simulate_ssp
-from fmpy.ssp.ssd import ParameterSet, read_ssd
-from system_of_fmus import component, connector, parameters_of, running, step, structure, unit_fmu, write_system
+from bearing import SCENES, Instance, build
+from system_of_fmus import (
+    GRID, asked, by_fmpy, component, connector, error, head, ours, row, structure, unit_fmu, write_system
+)  # fmt: skip
 
 MASS, TRANSVERSE, POLAR = 3.0, 8e-3, 2e-3  # kg, kg m2
 SPEED = 100.0 * math.pi  # rad/s
@@ -37,7 +34,6 @@ PLACES = {"left": -0.03, "right": 0.03}  # m
 PRELOAD = 5e-6  # m
 ADDED = np.array([0.0, -300.0, 100.0, 2.0, 0.0])  # N, N m
 ANGLE = math.radians(25.0)
-GRID = 1e-4  # s between the positions that are compared
 AXES = ("x", "y", "z", "tilt.x", "tilt.y")
 # Of one bearing: its inputs in the order of the shaft's outputs, and what it gives back.
 MOTION = [f"shaft.{order}{axis}" for order in ("", "v", "a") for axis in "xyz"]
@@ -47,6 +43,7 @@ FORCES = {
     for kind in ("", "mean_", "next_mean_")
 }
 SIZES = np.array([1.0, 1.0, 1.0, PLACES["right"], PLACES["right"]])
+SHAFT = "shaft", dict(zip(AXES, SIZES))
 
 
 def angles(mounted):
@@ -174,32 +171,26 @@ def variables():
 
 def description(name, guid, what, variables):
     """Model description of a unit compiled from `system/<name>.c`, its variables in the order of their references."""
-    lines, outputs = [], []
+    kinds = {
+        "input": 'variability="continuous"',
+        "output": 'variability="continuous" initial="calculated"',
+        "parameter": 'variability="fixed" initial="exact"',
+    }
+    lines, listed = "", ""
     for index, (variable, causality, value) in enumerate(variables):
-        exact = {"input": "", "output": ' initial="calculated"', "parameter": ' initial="exact"'}[causality]
-        kind = "fixed" if causality == "parameter" else "continuous"
         real = "<Real/>" if value is None else f'<Real start="{value!r}"/>'
-        lines.append(
-            f'<ScalarVariable name="{variable}" valueReference="{index}" causality="{causality}" variability="{kind}"'
-            f"{exact}>{real}</ScalarVariable>"
-        )
-        if causality == "output":
-            outputs.append(f'<Unknown index="{index + 1}"/>')
-    listed = "".join(outputs)
+        about = f'name="{variable}" valueReference="{index}" causality="{causality}" {kinds[causality]}'
+        lines += f"<ScalarVariable {about}>{real}</ScalarVariable>"
+        listed += f'<Unknown index="{index + 1}"/>' * (causality == "output")
     return f"""<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="{guid}"
     description="{what}" variableNamingConvention="structured">
 <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="true"
     canGetAndSetFMUstate="true"/>
-<ModelVariables>{"".join(lines)}</ModelVariables>
+<ModelVariables>{lines}</ModelVariables>
 <ModelStructure><Outputs>{listed}</Outputs><InitialUnknowns>{listed}</InitialUnknowns></ModelStructure>
 </fmiModelDescription>
 """.encode()
-
-
-def shaft_description():
-    guid = "{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}"
-    return description("shaft", guid, "A rigid shaft in two bearings", variables())
 
 
 def pair(bearing, mounted, kind, start):
@@ -226,90 +217,44 @@ def pair(bearing, mounted, kind, start):
     return structure("pair_of_bearings", elements, wires, 0.01)
 
 
-def ours(kind, handover):
-    """An algorithm of system_of_fmus.py, parallel or sequential; inputs held, with derivative, or interpolated."""
-
-    def run(ssp, h, stop):
-        with running(ssp) as (units, wires):
-            shaft = units["shaft"]
-            found, every = [shaft.give()[-5:]], round(GRID / h)
-            for count in range(1, round(stop / h) + 1):
-                step(units, wires, h, kind, handover)
-                if not np.all(np.abs(shaft.give()[-5:] * SIZES) < 1e-3):
-                    raise RuntimeError(f"unstable at {count * h:.4g} s")
-                if count % every == 0:
-                    found.append(shaft.give()[-5:])
-        return np.array(found)
-
-    return run
-
-
-def by_fmpy(ssp, h, stop):
-    parameters, start = ParameterSet(name="all"), None
-    for one in read_ssd(str(ssp)).system.elements:
-        own = parameters_of(one)
-        if one.name == "shaft":
-            start = [float(parameter.value) for parameter in own if parameter.name.startswith("start.")]
-        for parameter in own:
-            parameter.name = f"{one.name}.{parameter.name}"
-            parameters.parameters.append(parameter)
-    found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
-    positions = np.column_stack([found[f"shaft.{axis}"] for axis in AXES])
-    return np.vstack([start, positions[round(GRID / h) - 1 :: round(GRID / h)]])
-
-
 ALGORITHMS = [
-    ("ours", "parallel", "`force`, held", "", ours("parallel", "held")),
-    ("ours", "parallel", "`next_mean_force`, held", "next_mean_", ours("parallel", "held")),
-    ("ours", "parallel", "`force` and its derivative", "", ours("parallel", "derivative")),
-    ("ours", "sequential", "`force`, interpolated", "", ours("sequential", "interpolated")),
-    ("ours", "sequential", "`mean_force`, held", "mean_", ours("sequential", "held")),
-    ("fmpy", "parallel, begins with 0", "`force`, held", "", by_fmpy),
+    ("ours", "parallel", "`force`, held", "", ours("parallel", "held", SHAFT)),
+    ("ours", "parallel", "`next_mean_force`, held", "next_mean_", ours("parallel", "held", SHAFT)),
+    ("ours", "parallel", "`force` and its derivative", "", ours("parallel", "derivative", SHAFT)),
+    ("ours", "sequential", "`force`, interpolated", "", ours("sequential", "interpolated", SHAFT)),
+    ("ours", "sequential", "`mean_force`, held", "mean_", ours("sequential", "held", SHAFT)),
+    ("fmpy", "parallel, begins with 0", "`force`, held", "", by_fmpy(SHAFT)),
 ]
 
 
-def error(run, exact):
-    """As a cell of the table."""
-    try:
-        found = run()
-    except (RuntimeError, FMICallException, np.linalg.LinAlgError):
-        return "unstable"
-    apart = np.sqrt(np.mean(np.sum(((found - exact) * SIZES) ** 2, axis=1)))
-    way = np.sqrt(np.mean(np.sum(((exact - exact[0]) * SIZES) ** 2, axis=1)))
-    return percent(apart / way)
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--build", action="store_true", help="write the system, run nothing")
-    parser.add_argument("--short", action="store_true", help="two steps, 2 ms")
-    parser.add_argument("--mounted", choices=["O", "X", "T"], default="O", help="back to back, face to face, tandem")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
-    options = parser.parse_args()
+    mounted = {"choices": ["O", "X", "T"], "default": "O", "help": "back to back, face to face, tandem"}
+    options = asked(__doc__, "two steps, 2 ms", ("--mounted", mounted))
     steps = (5e-6, 2e-5) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 2e-3 if options.short else 0.01
     options.output.mkdir(parents=True, exist_ok=True)
     (bearing,) = build([SCENES / "7205-pair.toml"], options.output)
-    shaft = unit_fmu(options.output, "shaft", shaft_description())
+    guid = "{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}"
+    text = description("shaft", guid, "A rigid shaft in two bearings", variables())
+    shaft = unit_fmu(options.output, "shaft", text)
     host = Plain(bearing, options.mounted)
     start, stiffness = host.q, host.stiffness()
     host.close()
     systems = {}
     for kind in FORCES:
         path = options.output / f"pair-{options.mounted}{'-' * bool(kind)}{kind.strip('_')}.ssp"
-        systems[kind] = write_system(path, pair(bearing.name, options.mounted, kind, start), [bearing, shaft])
+        text = pair(bearing.name, options.mounted, kind, start)
+        systems[kind] = write_system(path, text, [bearing, shaft], options.ssp)
         print(path)
     print(f"stiffness: {stiffness[2, 2]:.4g} N/m along the axis, {stiffness[3, 3]:.4g} N m/rad against tilt")
     if options.build:
         return
     exact = by_tangent(bearing, options.mounted, 5e-7, stop)
-    print("| whose | algorithm | the shaft gets | " + " | ".join(f"{h * 1e6:g} µs" for h in steps) + " |")
-    print("|---|---|---|" + "---|" * len(steps))
-    cells = [error(lambda h=h: by_tangent(bearing, options.mounted, h, stop), exact) for h in steps]
-    print("| plain host | tangent stiffness | `mean_force` | " + " | ".join(cells) + " |", flush=True)
+    head(steps, "whose", "algorithm", "the shaft gets")
+    cells = [error(exact, by_tangent, bearing, options.mounted, h, stop, body=SHAFT) for h in steps]
+    row("plain host", "tangent stiffness", "`mean_force`", *cells)
     for whose, algorithm, handover, kind, run in ALGORITHMS:
-        cells = [error(lambda h=h, run=run, kind=kind: run(systems[kind], h, stop), exact) for h in steps]
-        print(f"| {whose} | {algorithm} | {handover} | " + " | ".join(cells) + " |", flush=True)
+        row(whose, algorithm, handover, *(error(exact, run, systems[kind], h, stop, body=SHAFT) for h in steps))
 
 
 if __name__ == "__main__":

@@ -9,13 +9,11 @@ bearing's elements and its housing, and `brinell.ross` with ROSS's matrices the 
 bearings. examples/notebooks/rotor.ipynb has one of your own.
 """
 
-import argparse
 import json
 import time
-from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, build, changed_scene
+from bearing import build, healthy_and_spalled, parser
 from brinell.ross import ross, simulate, unbalance
 
 LEFT, DAMPER, DISK, BEARING = 0, 5, 6, 12  # nodes
@@ -33,14 +31,6 @@ def shown():
     ]
     # 5e-4 kg m: a disk that should be balanced; grade G 36 at 50 Hz
     return ross.Rotor(elements, disks, bearings), {BEARING: (0.0, -300.0)}, {DISK: unbalance(5e-4)}
-
-
-def fmus_in(folder):
-    """The FMUs: healthy, spalled."""
-    base = SCENES / "er16k-tb1-hosted-shaft.toml"
-    healthy = changed_scene(base, "er16k-hosted-shaft", {"defect": None, "contact": None}, folder)
-    spalled = changed_scene(base, "er16k-tb1-hosted-shaft", {}, folder)
-    return build([healthy, spalled], folder)
 
 
 def spectrum(signal, h, turns):
@@ -88,13 +78,11 @@ def draw(runs, passage, h, turns, settle, stem):
                 at = multiple * passage + side
                 axis.plot(at, 1.03, "v", color="#999999", transform=top, clip_on=False, markersize=4)
         axis.set_xlim(0, 11)
-    axes[2].set_ylim(1e-4, None)
-    axes[3].set_ylim(1e-4, None)
-    axes[0].set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="turns of the shaft from the end")
-    axes[1].set(ylabel="disk, y from rest\n(µm)", xlabel="turns of the shaft from the end")
-    marks = "order of shaft speed; grey marks: sidebands, BPFO ± shaft speed"
-    axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel=marks)
-    axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed")
+    turned, marks = "turns of the shaft from the end", "; grey marks: sidebands, BPFO ± shaft speed"
+    axes[0].set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel=turned)
+    axes[1].set(ylabel="disk, y from rest\n(µm)", xlabel=turned)
+    axes[2].set(ylabel="shaft in the bearing,\ny (µm)", xlabel="order of shaft speed" + marks, ylim=(1e-4, None))
+    axes[3].set(ylabel="housing, y (m/s²)", xlabel="order of shaft speed", ylim=(1e-4, None))
     whole["healthy"].sharey(whole["spalled"])
     for axis in whole.values():
         axis.set(ylabel="shaft in the bearing,\ny from rest (µm)", xlabel="time (s)", xlim=(0, t[-1]))
@@ -105,16 +93,15 @@ def draw(runs, passage, h, turns, settle, stem):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--passes", type=int, default=2, help="of each step")
-    parser.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
-    parser.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
-    parser.add_argument("--stop", type=float, default=4.0, help="end [s]")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
-    options = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("--passes", type=int, default=2, help="of each step")
+    words.add_argument("--speed", type=float, default=50.0, help="shaft speed [Hz]")
+    words.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
+    words.add_argument("--stop", type=float, default=4.0, help="end [s]")
+    options = words.parse_args()
     rotor, loads, forces = shown()
     speed, settle, h = 2 * np.pi * options.speed, min(0.3, 0.4 * options.stop), options.step
-    fmus = fmus_in(options.output)
+    fmus = build(healthy_and_spalled(options.output), options.output)
     stem = options.output / "rotor_ross"
     runs, took = {}, {}
     for name, fmu in zip(("healthy", "spalled"), fmus):

@@ -15,14 +15,12 @@ Hosts:
 Without rotation the linear rotor's modes are those of its matrices, printed with their frequencies.
 """
 
-import argparse
 import json
-from pathlib import Path
 
 import numpy as np
 from bearing import SCENES, Bearing, build, changed_scene
 from pair_of_bearings import description
-from system_of_fmus import CASINGS, component, connector, running, step, structure, unit_fmu, write_system
+from system_of_fmus import CASINGS, asked, component, connector, ours, structure, unit_fmu, write_system
 
 MASS, JOURNAL, STIFFNESS = 10.0, 1.0, 2e7  # kg, kg, N/m
 DAMPING = 2 * 0.02 * np.sqrt(STIFFNESS * MASS)  # N s/m on the disk, from outside
@@ -170,12 +168,8 @@ def pair_and_disk(bearing, rest):
 
 def run_system(ssp, h, stop):
     """As `run`, of the SSP file by the parallel algorithm that holds inputs."""
-    with running(ssp) as (units, wires):
-        places = [units["disk"].give()[-2:]]
-        for _ in range(round(stop / h)):
-            step(units, wires, h, "parallel", "held")
-            places.append(units["disk"].give()[-2:])
-        return np.array(places[1:]) - places[0]
+    places = ours("parallel", "held", ("disk", {"x": 1.0, "y": 1.0}), h)(ssp, h, stop)
+    return places[1:] - places[0]
 
 
 def peaks(found, h):
@@ -204,15 +198,8 @@ def draw(runs, h, stem):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--build", action="store_true", help="write the SSP file only")
-    parser.add_argument("--short", action="store_true", help="the first 20 ms only")
-    parser.add_argument("--ssp", choices=("1.0", "2.0"), default="1.0", help="version of the SSP file")
-    parser.add_argument("--step", type=float, default=2e-5, help="communication step [s]")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
-    options = parser.parse_args()
-    if options.ssp != "1.0" and not options.build:
-        parser.error("fmpy reads SSP 1.0 only: add --build")
+    step = {"type": float, "default": 2e-5, "help": "communication step [s]"}
+    options = asked(__doc__, "the first 20 ms only", ("--step", step))
     folder, h, stop = options.output, options.step, 0.02 if options.short else 0.7
     changes = {"defect": None, "contact": None, **CASINGS["fixed"]}
     scene = changed_scene(SCENES / "er16k-tb1-hosted-shaft.toml", "run-up-bearing", changes, folder)

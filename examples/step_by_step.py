@@ -20,13 +20,11 @@ For constant K this conserves energy, its error is of fourth order, and it is st
 Coordinates: the shaft's positions q = (x, y) of the left and (x, y) of the right bearing.
 """
 
-import argparse
 import json
 import time
-from pathlib import Path
 
 import numpy as np
-from bearing import SCENES, Bearing, build, changed_scene, whole
+from bearing import Bearing, build, healthy_and_spalled, parser, whole
 
 MASS, LENGTH, CENTRE = 6.0, 0.40, 0.22  # kg, m between the bearings, m from left bearing to the centre of mass
 INERTIA, POLAR = 0.09, 0.008  # kg m², across the axis and about it
@@ -102,13 +100,6 @@ def simulate(fmus, step, passes, stop, seen=(), tolerance=1e-5):
     return np.array(rows)
 
 
-def fmus_in(folder):
-    base = SCENES / "er16k-tb1-hosted-shaft.toml"
-    healthy = changed_scene(base, "er16k-hosted-shaft", {"defect": None, "contact": None}, folder)
-    spalled = changed_scene(base, "er16k-tb1-hosted-shaft", {}, folder)
-    return build([healthy, spalled], folder)
-
-
 def draw(rows, seen, step, passes, stem):
     from figures import BLACK, BLUE, GREEN, ORANGE, legend, plots, save
 
@@ -120,11 +111,10 @@ def draw(rows, seen, step, passes, stem):
     axes[0].set_title(
         f"Rigid rotor on two bearings, {passes} pass{'es' * (passes > 1)}, step {step * 1e6:g} µs", loc="left"
     )
-    axes[1].plot(t, forces[:, 1], color=BLUE, label="left, healthy", linewidth=0.8)
-    axes[1].plot(t, forces[:, 3], color=ORANGE, label="right, spalled", linewidth=0.8)
+    for column, colour, label in ((1, BLUE, "left, healthy"), (3, ORANGE, "right, spalled")):
+        axes[1].plot(t, forces[:, column], color=colour, label=label, linewidth=0.8)
+        axes[2].plot(t, positions[:, column] * 1e6, color=colour, label=label)
     axes[1].set_ylabel("bearing's force on\nthe shaft, y (N)")
-    axes[2].plot(t, positions[:, 1] * 1e6, color=BLUE, label="left, healthy")
-    axes[2].plot(t, positions[:, 3] * 1e6, color=ORANGE, label="right, spalled")
     axes[2].set_ylabel("position of the\nshaft, y (µm)")
     axes[3].plot(t, spalled["sensor.acceleration"], color=GREEN, linewidth=0.7)
     axes[3].set_ylabel("sensor on the\nright, y (m/s²)")
@@ -136,13 +126,12 @@ def draw(rows, seen, step, passes, stem):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
-    parser.add_argument("--passes", type=int, default=1, choices=(1, 2, 3))
-    parser.add_argument("--stop", type=float, default=0.4, help="end [s]")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
-    options = parser.parse_args()
-    fmus = fmus_in(options.output)
+    words = parser(__doc__)
+    words.add_argument("--step", type=float, default=5e-5, help="communication step [s]")
+    words.add_argument("--passes", type=int, default=1, choices=(1, 2, 3))
+    words.add_argument("--stop", type=float, default=0.4, help="end [s]")
+    options = words.parse_args()
+    fmus = build(healthy_and_spalled(options.output), options.output)
     seen = ["sensor.acceleration", "housing.ay"]
     begin = time.perf_counter()
     rows = simulate(fmus, options.step, options.passes, options.stop, seen)

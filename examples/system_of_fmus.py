@@ -21,7 +21,6 @@ Masters that read them:
   fmpy      fmpy.ssp.simulation: parallel, held, and every input 0 in the first step
 """
 
-import argparse
 import os
 import shlex
 import subprocess
@@ -33,7 +32,7 @@ from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
-from bearing import SCENES, Instance, Numbers, build, changed_scene, percent, unzipped, whole
+from bearing import SCENES, Instance, Numbers, build, changed_scene, parser, percent, unzipped, whole
 from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import ParameterSet, read_ssd
@@ -41,6 +40,8 @@ from fmpy.ssp.ssd import ParameterSet, read_ssd
 HERE = Path(__file__).resolve().parent / "system"
 MASS, STIFFNESS, LOAD = 3.0, 1e7, 500.0  # kg, N/m, N
 GRID = 1e-4  # s between the positions that are compared
+# The body whose position is compared; coordinates, and by which length [m] a unit of each counts.
+ROTOR = "rotor", {"x": 1.0, "y": 1.0}
 PASSES, END = 4, 2  # of each step, iterated; number of the item `end` of `host.repeated_inputs`
 MOTION = {"x": "shaft.x", "y": "shaft.y", "vx": "shaft.vx", "vy": "shaft.vy", "ax": "shaft.ax", "ay": "shaft.ay"}
 
@@ -240,30 +241,31 @@ def running(ssp, iterated=False):
             unit.close()
 
 
-def ours(kind, handover):
-    """An algorithm: `kind` parallel or sequential; inputs by `handover` held, with derivative, or interpolated."""
+def ours(kind, handover, body=ROTOR, grid=GRID):
+    """An algorithm: `kind` parallel, iterated or sequential; inputs by `handover` held, with derivative, or
+    interpolated. It gives the positions of the `body` every `grid` seconds."""
+    name, sizes = body
 
     def run(ssp, h, stop):
-        iterated = kind == "iterated"
-        with running(ssp, iterated) as (units, wires):
-            rotor = units["rotor"]
-            positions, every = [rotor.give()[:2]], round(GRID / h)
+        with running(ssp, kind == "iterated") as (units, wires):
+            places = [units[name].names.index(axis) for axis in sizes]
+            found, every = [units[name].give()[places]], round(grid / h)
             for count in range(1, round(stop / h) + 1):
-                if iterated:
-                    iterate(units, wires, h)
-                else:
-                    step(units, wires, h, kind, handover)
-                if not np.all(np.abs(rotor.give()[:2]) < 1e-3):
+                step(units, wires, h, kind, handover)
+                position = units[name].give()[places]
+                if not np.all(np.abs(position * list(sizes.values())) < 1e-3):
                     raise RuntimeError(f"unstable at {count * h:.4g} s")
                 if count % every == 0:
-                    positions.append(rotor.give()[:2])
-        return np.array(positions)
+                    found.append(position)
+        return np.array(found)
 
     return run
 
 
 def step(units, wires, h, kind, handover):
     """One communication step of all units."""
+    if kind == "iterated":
+        return iterate(units, wires, h)
     begin = {name: unit.give() for name, unit in units.items()}
     slopes = {name: np.zeros(len(values)) for name, values in begin.items()}
     if handover == "derivative":
@@ -297,22 +299,24 @@ def parameters_of(component):
     return [parameter for values in sets for parameter in values.parameters]
 
 
-def start_of(ssp):
-    """Where the rotor is at the start."""
-    rotor = next(component for component in read_ssd(str(ssp)).system.elements if component.name == "rotor")
-    return [float(parameter.value) for parameter in parameters_of(rotor) if parameter.name.startswith("start.")]
+def by_fmpy(body=ROTOR):
+    """fmpy's algorithm, as `ours` gives one."""
+    name, sizes = body
 
+    def run(ssp, h, stop):
+        parameters, start = ParameterSet(name="all"), []
+        for one in read_ssd(str(ssp)).system.elements:
+            for parameter in parameters_of(one):
+                if one.name == name and parameter.name.startswith("start."):
+                    start.append(float(parameter.value))
+                parameter.name = f"{one.name}.{parameter.name}"
+                parameters.parameters.append(parameter)
+        # It adds up the time: half a step less ends where the last step does. Its rows are those after each step.
+        found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
+        positions = np.column_stack([found[f"{name}.{axis}"] for axis in sizes])
+        return np.vstack([start, positions[round(GRID / h) - 1 :: round(GRID / h)]])
 
-def by_fmpy(ssp, h, stop):
-    parameters = ParameterSet(name="rotor")
-    for component in read_ssd(str(ssp)).system.elements:
-        for parameter in parameters_of(component):
-            parameter.name = f"{component.name}.{parameter.name}"
-            parameters.parameters.append(parameter)
-    # It adds up the time: half a step less ends where the last step does. Its rows are those after each step.
-    found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
-    positions = np.column_stack([found["rotor.x"], found["rotor.y"]])
-    return np.vstack([start_of(ssp), positions[round(GRID / h) - 1 :: round(GRID / h)]])
+    return run
 
 
 # Whose algorithm, how it steps, what the rotor gets, and of which system.
@@ -325,39 +329,54 @@ ALGORITHMS = [
     ("ours", "sequential", "`force`, held", "force", ours("sequential", "held")),
     ("ours", "sequential", "`force`, interpolated", "force", ours("sequential", "interpolated")),
     ("ours", "sequential", "`mean_force`, held", "mean_force", ours("sequential", "held")),
-    ("fmpy", "parallel, begins with 0", "`force`, held", "force", by_fmpy),
+    ("fmpy", "parallel, begins with 0", "`force`, held", "force", by_fmpy()),
 ]
 
 
-def error(run, ssp, exact, h, stop):
-    """As a cell of the table."""
+def error(exact, run, *arguments, body=ROTOR):
+    """Of what `run` finds, as a cell of the table."""
+    sizes = list(body[1].values())
     try:
-        found = run(ssp, h, stop)
-    except (RuntimeError, FMICallException):
+        apart = (run(*arguments) - exact) * sizes
+    except (RuntimeError, FMICallException, np.linalg.LinAlgError):
         return "unstable"
-    apart = np.sqrt(np.mean(np.sum((found - exact) ** 2, axis=1)))
-    way = np.sqrt(np.mean(np.sum((exact - exact[0]) ** 2, axis=1)))
-    return percent(apart / way)
+    way = (exact - exact[0]) * sizes
+    return percent(np.sqrt(np.mean(np.sum(apart**2, axis=1)) / np.mean(np.sum(way**2, axis=1))))
+
+
+def row(*cells):
+    print("| " + " | ".join(cells) + " |", flush=True)
+
+
+def head(steps, *words):
+    """First lines of a table of errors by step."""
+    row(*words, *(f"{h * 1e6:g} µs" for h in steps))
+    print("|" + "---|" * (len(words) + len(steps)))
+
+
+def asked(about, short, *more):
+    """Options of an example that writes SSP files, with `more` of its own."""
+    words = parser(about)
+    for name, how in more:
+        words.add_argument(name, **how)
+    words.add_argument("--build", action="store_true", help="write the SSP files, run nothing")
+    words.add_argument("--short", action="store_true", help=short)
+    words.add_argument("--ssp", choices=("1.0", "2.0"), default="1.0", help="version of the SSP files")
+    options = words.parse_args()
+    if options.ssp != "1.0" and not options.build:
+        words.error("fmpy reads SSP 1.0 only: add --build")
+    return options
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--build", action="store_true", help="write the systems, run nothing")
-    parser.add_argument("--short", action="store_true", help="two steps, 5 ms")
-    parser.add_argument("--ssp", choices=("1.0", "2.0"), default="1.0", help="version of the SSP files")
-    parser.add_argument("-o", "--output", type=Path, default=Path("target/examples"))
-    options = parser.parse_args()
-    if options.ssp != "1.0" and not options.build:
-        parser.error("fmpy reads SSP 1.0 only: add --build")
+    options = asked(__doc__, "two steps, 5 ms")
     steps = (1e-5, 1e-4) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 5e-3 if options.short else 0.02
     casings = ["free"] if options.build or options.short else list(CASINGS)
     fmus = fmus_in(options.output, casings)
     rotor = unit_fmu(options.output, "rotor", (HERE / "rotor.xml").read_bytes())
     if not options.build:
-        heads = ["bearing", "casing", "whose", "algorithm", "the rotor gets", *(f"{h * 1e6:g} µs" for h in steps)]
-        print("| " + " | ".join(heads) + " |")
-        print("|---|---|---|---|---|" + "---|" * len(steps))
+        head(steps, "bearing", "casing", "whose", "algorithm", "the rotor gets")
     for (name, casing), (bearing, inside) in fmus.items():
         exact = whole_run(inside, GRID if options.build else stop)
         systems = {}
@@ -367,10 +386,8 @@ def main():
             systems[force] = write_system(path, text, [bearing, rotor], options.ssp)
             if options.build:
                 print(path)
-        for whose, kind, handover, force, run in ALGORITHMS:
-            if not options.build:
-                cells = [error(run, systems[force], exact, h, stop) for h in steps]
-                print(f"| {name} | {casing} | {whose} | {kind} | {handover} | " + " | ".join(cells) + " |", flush=True)
+        for whose, kind, handover, force, run in ALGORITHMS if not options.build else ():
+            row(name, casing, whose, kind, handover, *(error(exact, run, systems[force], h, stop) for h in steps))
 
 
 if __name__ == "__main__":

@@ -6,39 +6,23 @@ from pathlib import Path
 
 import numpy as np
 import plotting
+from figures import UNBOUNDED, cells
 from matplotlib.ticker import MaxNLocator
 from plotting import BLUE, GREEN, VERMILION, plt
 
-GREY = "#777777"
 # Most cells each way of the map that are drawn: more than pixels make no difference.
 MOST = 256
 stem = Path(sys.argv[1])
 report = json.loads(stem.with_name(stem.name + ".json").read_text(encoding="utf-8"))
 found, hertz, stress = report["found"], report["hertz"], report["stress"]
-columns, rows = report["cells"]
 (x_from, x_to), (y_from, y_to) = report["window_mm"]
-
-
-def centres(start, stop, count):
-    return start + (np.arange(count) + 0.5) * (stop - start) / count
 
 
 def table(end):
     return plotting.read_csv(stem.with_name(stem.name + end))
 
 
-def pressures():
-    """Pressure (MPa) of every cell, lines along the raceway."""
-    cells = table("-pressure.csv")
-    grid = np.zeros((rows, columns))
-    i = ((1e3 * cells["x"] - x_from) / (x_to - x_from) * columns).astype(int)
-    j = ((1e3 * cells["y"] - y_from) / (y_to - y_from) * rows).astype(int)
-    grid[j, i] = 1e-6 * cells["pressure"]
-    return grid
-
-
-pressure = pressures()
-x, y = centres(x_from, x_to, columns), centres(y_from, y_to, rows)
+(x, y), pressure = cells(report, table("-pressure.csv"))
 surface = table("-surface.csv")
 lines = np.unique(surface["y"])
 depth_x = 1e3 * surface["x"][: len(surface["x"]) // len(lines)]
@@ -49,8 +33,7 @@ middle_row = int(np.argmin(np.abs(y - below_y)))
 middle_column = int(np.argmin(np.abs(x - below_x)))
 
 
-# At an edge pressure and stress grow without bound as cells get smaller: what is beyond these is not drawn to scale.
-UNBOUNDED = 1.5
+# At an edge pressure and stress grow without bound as cells get smaller: what is far beyond these is cut off.
 HIGHEST_PRESSURE = max(hertz["max_pressure_mpa"], np.quantile(pressure[pressure > 0], 0.97))
 HIGHEST_STRESS = max(stress["below_middle"]["von_mises_mpa"], stress["hertz"]["von_mises_mpa"])
 
@@ -80,11 +63,9 @@ def levels_of_depth():
 
 
 def pressure_map(axis):
-    take = [max(1, -(-count // MOST)) for count in (columns, rows)]
-    shown = pressure[:: take[1], :: take[0]]
-    mesh = axis.pcolormesh(
-        x[:: take[0]], y[:: take[1]], np.ma.masked_equal(shown, 0), cmap="viridis", rasterized=True
-    )
+    every_x, every_y = (max(1, -(-len(at) // MOST)) for at in (x, y))
+    shown = np.ma.masked_equal(pressure[::every_y, ::every_x], 0)
+    mesh = axis.pcolormesh(x[::every_x], y[::every_y], shown, cmap="viridis", rasterized=True)
     top, beyond = scale(shown.max(), HIGHEST_PRESSURE)
     mesh.set_clim(0, top)
     figure.colorbar(mesh, ax=axis, label="pressure (MPa)", extend="max" if beyond else "neither")

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import plotting
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, plt
 
 GREY = "#999999"
@@ -49,9 +48,7 @@ def is_resting(angle, mode):
 
 def logarithmic(axis):
     axis.set_yscale("log")
-    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if np.ptp(np.log10(axis.get_ylim())) < 2.5 else (1,)))
-    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0f}" if value >= 1 else f"{value:g}"))
-    axis.yaxis.set_minor_formatter(NullFormatter())
+    plotting.logarithmic(axis, (1, 2, 5) if np.ptp(np.log10(axis.get_ylim())) < 2.5 else (1,))
 
 
 def elements(axis, quantity, with_resting):

@@ -1,14 +1,12 @@
 """The look of every figure: README width, legible at half size, colour-blind safe, equal bytes from equal data."""
 
-import contextlib
-import os
-from pathlib import Path
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from figures import whole, written  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 # Okabe and Ito's palette; black is left for axes and event lines.
 BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7"
@@ -97,6 +95,14 @@ def curve(axis, time, values, colour, label, turn=None):
         artist.set_in_layout(False)
 
 
+def logarithmic(axis, subs=(1, 2, 5)):
+    """A logarithmic axis upwards, marked at these multiples of powers of ten in plain numbers."""
+    axis.set_yscale("log")
+    axis.yaxis.set_major_locator(LogLocator(subs=subs))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+    axis.yaxis.set_minor_formatter(NullFormatter())
+
+
 def read_csv(path):
     """Columns of a CSV file by their names without units."""
     with open(path, encoding="utf-8") as file:
@@ -120,21 +126,6 @@ def signals(path):
     return found
 
 
-@contextlib.contextmanager
-def whole(path):
-    """A file to write that takes the name `path` when all is written: a full disk leaves what was there before."""
-    path = Path(path)
-    part = path.with_name(f"new-{os.getpid()}-{path.name}")
-    try:
-        yield part
-        os.replace(part, path)
-    except OSError as error:
-        why = f"{path} was not written, what was there before is unchanged: {error.strerror}; choose another folder"
-        raise OSError(error.errno, why) from error
-    finally:
-        part.unlink(missing_ok=True)
-
-
 def write_csv(path, header, columns):
     """Columns of equal length; `repr` of a float reads back to the same bits."""
     with whole(path) as part, open(part, "w", encoding="utf-8", newline="\n") as file:
@@ -144,13 +135,6 @@ def write_csv(path, header, columns):
 
 
 def save(figure, stem):
-    """Writes `stem`.svg and .png without dates or program versions, and names them on standard output."""
-    stem = Path(stem)
-    for suffix, metadata in ((".svg", {"Date": None, "Creator": None}), (".png", {"Software": None})):
-        path = stem.with_name(stem.name + suffix)
-        with whole(path) as part:
-            figure.savefig(part, metadata=metadata, dpi=150)
-        # What is laid out once is for both.
-        figure.set_layout_engine("none")
+    """Writes the figure and names its files on standard output."""
+    for path in written(figure, stem):
         print(path)
-    plt.close(figure)

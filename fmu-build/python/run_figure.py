@@ -39,6 +39,11 @@ def curves(axis, names, colours, scale=1.0, labels=None):
         plotting.curve(axis, source["time"] * factor, source[name] * scale, colour, label, turn)
 
 
+def both(axis, name, scale):
+    """Along x and y."""
+    curves(axis, [f"{name}.x", f"{name}.y"], [ORANGE, BLUE], scale, ["x", "y"])
+
+
 def panels():
     """Each panel: its axis label and what draws it, as far as this run has the signals."""
     if "sensor.acceleration" in data:
@@ -48,22 +53,15 @@ def panels():
         colours = [BLUE, ORANGE, GREEN, PURPLE] * 2
         yield "sensors\n(m/s²)", lambda axis: curves(axis, sensors, colours, 1.0, [name[7:-14] for name in sensors])
     if "probe.y" in data:
-        yield "probe\n(µm)", lambda axis: curves(axis, ["probe.x", "probe.y"], [ORANGE, BLUE], 1e6, ["x", "y"])
+        yield "probe\n(µm)", lambda axis: both(axis, "probe", 1e6)
     for ring, colour in (("housing", VERMILION), ("shaft", GREEN)):
         if f"{ring}.ay" in data and data[f"{ring}.ay"].any():
             name = f"{ring}.ay"
             yield f"{ring}, y\n(m/s²)", lambda axis, name=name, colour=colour: curves(axis, [name], [colour])
     for ring in ("shaft", "housing"):
         if f"{ring}.y" in data and data[f"{ring}.y"].any():
-            names = [f"{ring}.x", f"{ring}.y"]
-            yield (
-                f"{ring}\nposition (µm)",
-                lambda axis, names=names: curves(axis, names, [ORANGE, BLUE], 1e6, ["x", "y"]),
-            )
-    yield (
-        "bearing force\non shaft (N)",
-        lambda axis: curves(axis, ["shaft.force.x", "shaft.force.y"], [ORANGE, BLUE], 1.0, ["x", "y"]),
-    )
+            yield f"{ring}\nposition (µm)", lambda axis, ring=ring: both(axis, ring, 1e6)
+    yield "bearing force\non shaft (N)", lambda axis: both(axis, "shaft.force", 1.0)
 
     def outer(axis):
         count = sum(name.startswith("element[") and name.endswith("].force.outer") for name in data)
@@ -76,20 +74,15 @@ def panels():
             colour = plt.cm.viridis((j - 1) / max(count, 2))
             axis.plot(time, data[f"element[{j}].force.outer"], color=colour, linewidth=0.9, label=str(j))
 
-    yield (
-        ("largest outer\nforce on an\nelement (N)" if plotting.is_long(time) else "outer force on\nelements (N)"),
-        outer,
-    )
+    yield ("largest outer\nforce on an\nelement (N)" if plotting.is_long(time) else "outer force on\nelements (N)"), outer
 
 
 def lines(axis, name, frequency, colour, style, top):
     """Harmonics of a characteristic frequency up to `top`, the first one darkest."""
+    look = {"color": colour, "linestyle": style, "linewidth": 1.0}
     for k in range(1, int(top / frequency) + 1):
-        axis.axvline(
-            k * frequency, color=colour, linestyle=style, linewidth=1.0, alpha=1.0 if k == 1 else 0.5, zorder=1
-        )
-    label = f"{name} {frequency:.1f} Hz"
-    axis.plot([], [], color=colour, linestyle=style, linewidth=1.0, label=label)
+        axis.axvline(k * frequency, alpha=1.0 if k == 1 else 0.5, zorder=1, **look)
+    axis.plot([], [], label=f"{name} {frequency:.1f} Hz", **look)
 
 
 def envelope(axis, path):

@@ -7,28 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import plotting
-from plotting import BLUE, GREEN, ORANGE, VERMILION, plt
+from figures import marked
+from plotting import BLUE, GREEN, ORANGE, plt
 
 
 def beside(stem, ending):
     return stem.with_name(stem.name + ending)
-
-
-def mark(axis, found, labelled):
-    """The events: vertical lines, named once."""
-    edges = found["edges_deg"]
-    if edges:
-        axis.axvspan(*edges, color="#eeeeee", zorder=0)
-        for at, name in zip(edges, ("leading edge", "trailing edge")):
-            axis.axvline(
-                at,
-                color="black",
-                linewidth=0.9,
-                linestyle="--" if name == "leading edge" else "-.",
-                label=name if labelled else None,
-            )
-    for k, at in enumerate(found["impacts_deg"]):
-        axis.axvline(at, color=VERMILION, linewidth=0.9, label="impact" if labelled and k == 0 else None)
 
 
 def title(found):
@@ -59,8 +43,11 @@ def draw(stem):
     middle.plot(angle, data["level"] - np.max(data["level"]), color=GREEN, label="high-frequency envelope")
     middle.set_ylabel("level (dB)")
 
+    edges = found["edges_deg"]
     for axis in axes:
-        mark(axis, found, axis is top)
+        marked(axis, found, axis is top)
+        if edges:
+            axis.axvspan(*edges, color="#eeeeee", zorder=0)
     if rows == 3:
         axes[2].plot(angle, -1e6 * data["path"], color=BLUE, label="element's centre, until free or on the floor")
         axes[2].set_ylabel("path (µm)")
@@ -74,7 +61,6 @@ def draw(stem):
         if found["length_deg"]
         else f"element travel (degrees of {raceway}; 0: first impact, if there is one)"
     )
-    edges = found["edges_deg"]
     if edges:
         room = max(4.0, 0.8 * (edges[1] - edges[0]))
         axes[-1].set_xlim(max(angle[0], edges[0] - room), min(angle[-1], edges[1] + 1.6 * room))

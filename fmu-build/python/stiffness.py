@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import plotting
 from figures import GREY, from_middle, stiffness
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from plotting import BLUE, GREEN, VERMILION, plt
 
 stem = Path(sys.argv[1])
@@ -33,11 +32,8 @@ def logarithmic(axis, values, headroom=1.4):
         # An element rests on the bottom without any load: the axis is linear, and the curve lies on it.
         axis.set_ylim(-0.05 * load, headroom * load)
         return
-    axis.set_yscale("log")
+    plotting.logarithmic(axis)
     axis.set_ylim(0.7 * min(values.min(), load), headroom * max(values.max(), load))
-    axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
-    axis.yaxis.set_minor_formatter(NullFormatter())
 
 
 def critical_over_angle(axis):
@@ -68,16 +64,8 @@ def distribution(axis):
     axis.plot(angles.ravel()[order], forces.ravel()[order], color=GREY, linewidth=0.9, label="one element on its way")
     for share, colour, marker in ((0.5, BLUE, "o"), (0.75, GREEN, "s"), (1.0, VERMILION, "^")):
         k = int(np.argmin(np.abs(cage - (cage[0] + share * (cage[-1] - cage[0])))))
-        axis.plot(
-            angles[:, k],
-            forces[:, k],
-            marker,
-            color=colour,
-            markersize=6,
-            clip_on=False,
-            zorder=3,
-            label=f"cage angle {cage[k]:.0f}°",
-        )
+        drawn = {"color": colour, "markersize": 6, "clip_on": False, "zorder": 3}
+        axis.plot(angles[:, k], forces[:, k], marker, label=f"cage angle {cage[k]:.0f}°", **drawn)
     axis.set_xlim(-180, 180)
     axis.set_xticks(range(-180, 181, 45))
     axis.set_ylim(0, 1.05 * forces.max())

@@ -11,6 +11,7 @@ goes wrong is a :class:`BrinellError` with the program's own words; what it rema
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import json
 import os
@@ -20,7 +21,7 @@ import sys
 import sysconfig
 import tempfile
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import metadata
 from pathlib import Path
 from typing import Any, Union
@@ -81,8 +82,7 @@ def program() -> str:
     if "BRINELL_PROGRAM" in os.environ:
         return os.environ["BRINELL_PROGRAM"]
     name = "brinell.exe" if os.name == "nt" else "brinell"
-    schemes = ["", os.name + "_user"]
-    folders = [sysconfig.get_path("scripts", scheme) if scheme else sysconfig.get_path("scripts") for scheme in schemes]
+    folders = [sysconfig.get_path("scripts"), sysconfig.get_path("scripts", os.name + "_user")]
     for folder in [*folders, str(Path(sys.executable).parent)]:
         if folder and (Path(folder) / name).is_file():
             return str(Path(folder) / name)
@@ -111,10 +111,9 @@ def build(
     arrays. With ``reference`` the inputs, outputs and options of a reference run are written beside the FMU, and it holds
     them.
     """
-    wanted = platforms if isinstance(platforms, str) else ",".join(platforms)
-    given = {"fmi": fmi, "platforms": wanted or None, "kind": kind, "names": names}
-    chosen = [f"--{name}={value}" for name, value in given.items() if value is not None]
-    chosen += ["--scalars"] * scalars + ["--reference"] * reference
+    chosen = _options(
+        fmi=fmi, platforms=_listed(platforms), kind=kind, names=names, scalars=scalars, reference=reference
+    )
     said = _ask("build", os.fspath(scene), "--output", os.fspath(output), *chosen)
     return Path(said.splitlines()[-1])
 
@@ -139,23 +138,14 @@ def run(
     characters; ``speed_profile`` is a CSV file with time_s and speed_hz; ``noise_db`` is the signal-to-noise ratio of the
     sensors.
     """
-    given = {
-        "stop": stop,
-        "step": step,
-        "noise-db": noise_db,
-        "noise-seed": noise_seed if noise_db is not None else None,
-    }
-    options = [f"--{name}={value!r}" for name, value in given.items() if value is not None]
-    options += [f"--{name}={value}" for name, value in (("bearing", bearing), ("defect", defect)) if value is not None]
-    options += [os.fspath(scene)] if scene is not None else []
-    options += [f"--speed-profile={os.fspath(speed_profile)}"] if speed_profile is not None else []
-    names = columns if isinstance(columns, str) else ",".join(columns)
-    options += [f"--columns={names or '*'}"]
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        _ask("run", "--no-figure", "--output", folder, *options)
-        (file,) = Path(folder).glob("*.csv")
+    options = _options(
+        bearing=bearing, defect=defect, stop=stop, step=step, columns=_listed(columns) or "*",
+        speed_profile=speed_profile, noise_db=noise_db, noise_seed=noise_seed if noise_db is not None else None,
+    )  # fmt: skip
+    with _written("run", *options, *([os.fspath(scene)] if scene is not None else [])) as (_, _, folder):
+        (file,) = folder.glob("*.csv")
         table = _table(file)
-        recordings = [np.load(path) for path in Path(folder).glob("*.npy")]
+        recordings = [np.load(path) for path in folder.glob("*.npy")]
     heads = {head: head.rpartition(" [") for head in table}
     signals = {name: table[head] for head, (name, _, _) in heads.items()}
     units = {name: unit.rstrip("]") for name, _, unit in heads.values()}
@@ -187,16 +177,12 @@ def size(
     does not. Gives what ``brinell size`` prints as JSON; averaged passages are kept where ``output`` names a folder.
     """
     files = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
-    speeds = [] if speed is None else [speed] if isinstance(speed, (int, float, str)) else list(speed)
-    given = {
-        "scene": scene and os.fspath(scene), "bearing": bearing, "load": load, "speed": ",".join(map(str, speeds)),
-        "rate": rate, "tacho": tacho, "pulses": pulses if tacho is not None else None, "speed-column": speed_column,
-        "channel": column if channel is None else channel, "delimiter": delimiter, "decimal": decimal,
-    }  # fmt: skip
-    options = [f"--{name}={value}" for name, value in given.items() if value not in (None, "")]
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        words = ["--no-figure", "--output", os.fspath(output or folder), *options]
-        said, told = _asked("size", *words, "--", *(os.fspath(file) for file in files))
+    options = _options(
+        scene=scene, bearing=bearing, load=load, speed=speed if isinstance(speed, (int, float)) else _listed(speed or ""),
+        rate=rate, tacho=tacho, pulses=pulses if tacho is not None else None, speed_column=speed_column,
+        channel=column if channel is None else channel, delimiter=delimiter, decimal=decimal,
+    )  # fmt: skip
+    with _written("size", *options, "--", *map(os.fspath, files), output=output) as (said, told, _):
         # What was written is named, in the order of the recordings.
         written = (Path(line) for line in told.splitlines() if line.endswith(".csv"))
         tables = {path.stem: _table(path) for path in written if path.is_file()}
@@ -218,9 +204,9 @@ def new(
     Without ``name`` it is called after bearing and defect. ``defect`` is a spall as ``"inner:1.2mm"``; ``axial`` a load
     [N] along the axis, with which rings have three degrees of freedom; with ``hosted`` an FMU's host moves the shaft.
     """
-    options = [f"--defect={defect}"] * bool(defect) + _optional("axial", axial) + ["--hosted"] * hosted
     words = [name] if name is not None else []
-    said = _ask("new", *words, f"--bearing={bearing}", *options, "--output", os.fspath(output))
+    words += _options(bearing=bearing, defect=defect, axial=axial, hosted=hosted, output=output)
+    said = _ask("new", *words)
     return Path(said.splitlines()[0])
 
 
@@ -232,17 +218,15 @@ def catalogue(begins: str = "") -> Catalogue:
 
 def stiffness(scene: PathLike, *, load: float | None = None) -> Columns:
     """Static stiffness [N/m], load zone and load distribution over the cage angle, by column names with units."""
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        _ask("stiffness", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
-        (table,) = Path(folder).glob("*-stiffness.csv")
+    with _written("stiffness", os.fspath(scene), *_options(load=load)) as (_, _, folder):
+        (table,) = folder.glob("*-stiffness.csv")
         return Columns(_table(table))
 
 
 def modes(scene: PathLike, *, load: float | None = None) -> Answer:
     """Natural frequencies, damping ratios and mode shapes over the cage angle, as ``brinell modes`` writes them."""
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        _ask("modes", os.fspath(scene), "--no-figure", "--output", folder, *_optional("load", load))
-        (file,) = Path(folder).glob("*-modes.json")
+    with _written("modes", os.fspath(scene), *_options(load=load)) as (_, _, folder):
+        (file,) = folder.glob("*-modes.json")
         found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     rows = [{"cage_angle_deg": one["cage_angle_deg"], **mode} for one in found["angles"] for mode in one["modes"]]
     return Answer(found, rows, figures.modes, shown="lines")
@@ -252,11 +236,10 @@ def contact(scene: PathLike, *, on: str, angle: float, force: float, pressure_li
     """Pressure of one ball on the raceway ``on`` as measured, ``angle`` [degrees] from the middle of its defect, under
     a force [N], and the stresses below: what ``brinell contact`` prints. ``pressure_limit`` [GPa] is the pressure at
     which the surface yields and stays dented."""
-    words = [f"--on={on}", f"--angle={angle!r}", f"--force={force!r}", "--no-figure"]
-    words += _optional("yield", pressure_limit)
-    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        found: dict[str, Any] = json.loads(_ask("contact", os.fspath(scene), *words, "--output", folder))
-        tables = {name: _table(next(Path(folder).glob(f"*-{name}.csv"))) for name in ("pressure", "depth")}
+    words = _options(on=on, angle=angle, force=force, **{"yield": pressure_limit})
+    with _written("contact", os.fspath(scene), *words) as (said, _, folder):
+        found: dict[str, Any] = json.loads(said)
+        tables = {name: _table(next(folder.glob(f"*-{name}.csv"))) for name in ("pressure", "depth")}
     rows = [{"contact": which, **found[which]} for which in ("found", "hertz")]
     return Answer(found, rows, figures.pressure, tables)
 
@@ -266,18 +249,27 @@ def sweep(file: PathLike, output: PathLike, *, jobs: int | None = None, signals:
 
     With ``signals`` those of all runs are written, too: a file for each, or with ``"array"`` one of all, ``signals.npy``.
     """
-    words = ["--signals", *[signals] * isinstance(signals, str)] if signals else []
-    said = _ask("sweep", os.fspath(file), "--output", os.fspath(output), *_optional("jobs", jobs), *words)
+    said = _ask("sweep", os.fspath(file), *_options(output=output, jobs=jobs, signals=signals))
     return Sweep(Path(said.splitlines()[0]))
-
-
-def _optional(name: str, value: float | None) -> list[str]:
-    return [] if value is None else [f"--{name}={value!r}"]
 
 
 def scenes() -> list[str]:
     """Names of the shipped scenes."""
     return [line.split()[0] for line in _ask("scenes").splitlines()]
+
+
+def _listed(names: str | Iterable[float | str]) -> str:
+    return names if isinstance(names, str) else ",".join(map(str, names))
+
+
+def _options(**given: Any) -> list[str]:
+    """Words for the program: what is given of its options, one that is True without a value."""
+    words = []
+    for name, value in given.items():
+        if value is not None and value is not False and value != "":
+            word = os.fspath(value) if isinstance(value, os.PathLike) else value
+            words.append(f"--{name.replace('_', '-')}" + ("" if word is True else f"={word}"))
+    return words
 
 
 def _table(path: Path) -> dict[str, figures.Signal]:
@@ -293,8 +285,16 @@ def _ask(*words: str) -> str:
     return _asked(*words, above=1)[0]
 
 
-def _asked(*words: str, above: int = 0) -> tuple[str, str]:
-    """The same, with what it says on standard error; remarks are `above` more calls below the user's line."""
+@contextlib.contextmanager
+def _written(command: str, *words: str, output: PathLike | None = None) -> Iterator[tuple[str, str, Path]]:
+    """What a command prints and says on standard error, and where its files are, in `output` or for this block only."""
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        where = os.fspath(output or folder)
+        yield *_asked(command, "--no-figure", "--output", where, *words, above=2), Path(where)
+
+
+def _asked(*words: str, above: int) -> tuple[str, str]:
+    """What the program prints and says on standard error; remarks are `above` more calls below the user's line."""
     done = subprocess.run([program(), *words], capture_output=True, text=True, encoding="utf-8")
     if done.returncode != 0:
         # Notes may stand before it; of a scene's faults each has its line.

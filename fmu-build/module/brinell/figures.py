@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import contextlib
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +18,36 @@ WIDTH = 9.0  # inches
 MOST = 0.5
 # At an edge pressure grows without bound as cells get smaller: what is beyond this multiple of all others is cut off.
 UNBOUNDED = 1.5
-BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#777777"
+BLUE, ORANGE, VERMILION, GREY = "#0072B2", "#E69F00", "#D55E00", "#777777"
+
+
+@contextlib.contextmanager
+def whole(name: str | Path) -> Iterator[Path]:
+    """A file to write that takes this name when all is written: a full disk leaves what was there before."""
+    path = Path(name)
+    part = path.with_name(f"new-{os.getpid()}-{path.name}")
+    try:
+        yield part
+        os.replace(part, path)
+    except OSError as error:
+        why = f"{path} was not written, what was there before is unchanged: {error.strerror}; choose another folder"
+        raise OSError(error.errno, why) from error
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def written(figure: Any, stem: str | Path) -> Iterator[Path]:
+    """Writes `stem`.svg and .png without dates or program versions: the same bytes from the same numbers."""
+    from matplotlib import pyplot
+
+    for suffix, metadata in ((".svg", {"Date": None, "Creator": None}), (".png", {"Software": None})):
+        path = Path(f"{stem}{suffix}")
+        with whole(path) as part:
+            figure.savefig(part, metadata=metadata, dpi=150)
+        # What is laid out once is for both.
+        figure.set_layout_engine("none")
+        yield path
+    pyplot.close(figure)
 
 
 def panels(along: str, where: Signal, columns: list[tuple[str, str, Signal]]) -> Any:
@@ -140,12 +172,12 @@ def passages(answer: Mapping[str, Any], tables: Mapping[str, Table]) -> Any:
     return figure
 
 
-def marked(axis: Any, one: Mapping[str, Any]) -> None:
-    """Edges and impacts, named once."""
+def marked(axis: Any, one: Mapping[str, Any], named: bool = True) -> None:
+    """Edges and impacts, if they are named, once."""
     for at, name, style in zip(one["edges_deg"] or (), ("leading edge", "trailing edge"), ("--", "-.")):
-        axis.axvline(at, color="black", linewidth=0.9, linestyle=style, label=name)
+        axis.axvline(at, color="black", linewidth=0.9, linestyle=style, label=name if named else None)
     for k, at in enumerate(one["impacts_deg"]):
-        axis.axvline(at, color="tab:red", linewidth=0.9, label=None if k else "impact")
+        axis.axvline(at, color=VERMILION, linewidth=0.9, label="impact" if named and k == 0 else None)
 
 
 def titled(one: Mapping[str, Any]) -> str:
@@ -195,11 +227,13 @@ def pressure(answer: Mapping[str, Any], tables: Mapping[str, Table]) -> Any:
 
 
 def cells(answer: Mapping[str, Any], under: Table) -> tuple[list[Signal], Signal]:
-    """Middles of the grid's columns and rows (mm), and the pressure of each cell (MPa)."""
+    """Middles of the grid's columns and rows (mm), and the pressure of each cell (MPa), from columns by their names with
+    units or without."""
+    named = {head.partition(" [")[0]: column for head, column in under.items()}
     counts, window = answer["cells"], answer["window_mm"]
     width = [(end - begin) / count for (begin, end), count in zip(window, counts)]
     at = [begin + (np.arange(count) + 0.5) * of for (begin, _), count, of in zip(window, counts, width)]
-    i, j = (((1e3 * under[f"{axis} [m]"] - window[k][0]) / width[k]).astype(int) for k, axis in enumerate("xy"))
+    i, j = (((1e3 * named[axis] - window[k][0]) / width[k]).astype(int) for k, axis in enumerate("xy"))
     grid = np.zeros(counts[::-1])
-    grid[j, i] = 1e-6 * under["pressure [Pa]"]
+    grid[j, i] = 1e-6 * named["pressure"]
     return at, grid

@@ -118,6 +118,14 @@ class Instance:
         self.unit.freeInstance()
 
 
+def started(fmu, start=None, name="bearing"):
+    """An instance that has gone through its initialization with these start values; steps may follow."""
+    instance = Instance(fmu, name)
+    instance.enter(start)
+    instance.run()
+    return instance
+
+
 class Numbers:
     """Some variables, with an array that the C interface reads or fills in place: no conversion in each step."""
 

@@ -32,6 +32,10 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
     return f"<p>{html.escape(caption)}</p><table>{head}{rows}</table>"
 
 
+def _chosen(names: str | Iterable[str] | None) -> list[str]:
+    return [names] if isinstance(names, str) else list(names or ())
+
+
 def _pandas() -> Any:
     """The package pandas, which is no requirement of this one."""
     try:
@@ -82,8 +86,7 @@ class Run(Mapping[str, Signal]):
     def plot(self, names: str | Iterable[str] | None = None) -> Any:
         """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
         what the sensors show, or the housing's acceleration."""
-        chosen = [names] if isinstance(names, str) else list(names or ())
-        chosen = chosen or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
+        chosen = _chosen(names) or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
         return figures.panels("time (s)", self["time"], [(name, self.units[name], self[name]) for name in chosen])
 
 
@@ -104,10 +107,9 @@ class Columns(dict[str, Signal]):
         ``names`` the stiffness along the load as the command ``brinell stiffness`` draws it.
         A name is that of a column with or without its unit."""
         heads = {head.rpartition(" [")[0]: head for head in self}
-        chosen = [names] if isinstance(names, str) else list(names or ())
-        if not chosen:
+        drawn = [heads.get(name, name) for name in _chosen(names)]
+        if not drawn:
             return figures.stiffness_alone({name: self[head] for name, head in heads.items()})
-        drawn = [heads.get(name, name) for name in chosen]
         columns = [(head.rpartition(" [")[0], head.rpartition(" [")[2].rstrip("]"), self[head]) for head in drawn]
         cage = figures.from_middle(next(iter(self.values())))
         return figures.panels("cage angle from the middle (degrees)", cage, columns)
@@ -194,7 +196,7 @@ class Sweep:
     def plot(self, over: str | None = None, names: str | Iterable[str] = ("rms_m_s2", "kurtosis")) -> Any:
         """Draws columns of the runs over another, a colour for each kind, and gives the ``matplotlib`` figure; without
         ``over`` over the first input that changes."""
-        return figures.runs(self.to_pandas(), over, [names] if isinstance(names, str) else list(names))
+        return figures.runs(self.to_pandas(), over, _chosen(names))
 
 
 def _table(rows: list[tuple[Any, ...]]) -> str:

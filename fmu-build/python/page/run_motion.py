@@ -12,6 +12,10 @@ def packed(values):
     return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
 
 
+def wrapped(angle):
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
 def turning(run, name, speed, every):
     """An angle that grows without a jump; where the run has none, from the speed."""
     time = np.asarray(run.table["time"])
@@ -38,7 +42,7 @@ def crossing(angles, about, shaft, housing, time, spins, force):
     late = np.arange(len(time)) >= len(time) // 2
     passages, closest = [], (np.inf, 0)
     for j in elements:
-        away = np.where(late, np.abs((angles[j] - turned - middle + np.pi) % (2 * np.pi) - np.pi), np.inf)
+        away = np.where(late, np.abs(wrapped(angles[j] - turned - middle)), np.inf)
         k = int(np.argmin(away))
         closest = min(closest, (away[k], k))
         within = np.flatnonzero(away <= half)
@@ -75,12 +79,6 @@ def gaps(run, about, j, time, path):
     return tuple(found)
 
 
-def across(each):
-    """Where balls are that move across their grooves."""
-    contact = {side: each(f"contact_angle.{side}") for side in ("outer", "inner")}
-    return {"path": each("path"), "axial": each("axial"), "contact": contact}
-
-
 def motion(run, about):
     """All of it, or None where the table lacks an element's motion."""
     count = about["count"]
@@ -95,8 +93,12 @@ def motion(run, about):
         for axis in ("x", "y", "z", "tilt.x", "tilt.y", "force.x", "force.y")
         if run.has(f"{name}.{axis}")
     }
+    sides = lambda what: {side: each(f"{what}.{side}") for side in ("outer", "inner")}  # noqa: E731
+    # Balls that move across their grooves.
+    across = {name: each(name) for name in ("path", "axial")} if about["section"] else {}
+    across.update({"contact": sides("contact_angle")} if across else {})
     time = of("time")
-    shaft, housing = turning(run, "shaft.angle", "shaft.speed", every), turning(run, "housing.angle", "housing.speed", every)
+    shaft, housing = (turning(run, f"{name}.angle", f"{name}.speed", every) for name in ("shaft", "housing"))
     angles = [np.unwrap(of(f"element[{j}].angle")) for j in range(1, count + 1)]
     spins = {
         defect["element"]: np.unwrap(of(f"element[{defect['element']}].spin_angle"))
@@ -123,7 +125,7 @@ def motion(run, about):
         "angle": [packed(angle) for angle in angles],
         "gap": {"outer": [packed(out) for out, _ in apart], "inner": [packed(inside) for _, inside in apart]},
         "section": about["section"],
-        **(across(each) if about["section"] else {}),
-        "force": {"outer": each("force.outer"), "inner": each("force.inner")},
+        **across,
+        "force": sides("force"),
         "spin": {j: packed(spin) for j, spin in spins.items()},
     }

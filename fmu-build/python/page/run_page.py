@@ -4,7 +4,6 @@ Arguments: a JSON file that says where the signals are and what there is to mark
 in the page, which asks no network for anything.
 """
 
-import base64
 import html
 import itertools
 import json
@@ -15,7 +14,7 @@ import numpy as np
 import plotly
 import plotting
 from plotting import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
-from run_motion import gaps, motion
+from run_motion import gaps, motion, packed, wrapped
 from run_spectra import spectra, spectrogram
 from scipy import signal
 
@@ -26,10 +25,6 @@ MOST_OF_PATH, MOST_PASSAGES = 20_000, 60
 # Wine, indigo, olive and grey beside the palette of all figures: ten that are told apart, then the same with dashes.
 COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, "#882255", "#332288", "#8C8C1A", "#666666"]
 STYLES = [(colour, dash) for dash in ("solid", "dash") for colour in COLOURS]
-
-
-def packed(values):
-    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
 
 
 def extremes(values, every):
@@ -120,27 +115,13 @@ def signals(run, count, sensor):
                 # A pair of extremes stands for so many samples.
                 width = step if every == 1 else 0.5 * every * step
             label = short(name, len(of)) + (" (dashed)" if dash == "dash" else "")
-            row.append(
-                {
-                    "name": name,
-                    "label": label,
-                    "unit": unit,
-                    "colour": colour,
-                    "dash": dash,
-                    "start": float(time[0]),
-                    "end": float(time[-1]),
-                    "step": width,
-                    "values": packed(kept),
-                }
-            )
+            about = {"name": name, "label": label, "unit": unit, "colour": colour, "dash": dash}
+            row.append({
+                **about, "start": float(time[0]), "end": float(time[-1]), "step": width, "values": packed(kept)
+            })  # fmt: skip
             words["recorder" if source is run.recording else "communication points"] = step
-        shown.append(
-            {
-                "unit": unit,
-                "signals": row,
-                "title": "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else "",
-            }
-        )
+        title = "force of the outer raceway on element" if of[0][0][0].endswith("].force.outer") else ""
+        shown.append({"unit": unit, "signals": row, "title": title})
     said = "; ".join(f"{name}: a sample every {1e6 * step:.4g} µs" for name, step in words.items())
     if every > 1:
         said += f". The run is long: of each {every} samples the page has the least and the greatest{whole}"
@@ -150,10 +131,6 @@ def signals(run, count, sensor):
 def short(name, count):
     """What a signal is called above its panel, where a dozen must stand side by side."""
     return name.split("[")[1].split("]")[0] if name.endswith("].force.outer") and count > 4 else name
-
-
-def wrapped(angle):
-    return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
 def position_and_height(run, about, defect, element, time):
@@ -213,21 +190,15 @@ def path(run, about, defect, number):
     outline = np.array(ends) if element else np.vstack([ends[0], surface, ends[1]]) * [scale, -1e6]
     told = str(len(kept)) if len(kept) == len(found) else f"the last {len(kept)} of {len(found)}"
     body = {"outer": "outer raceway", "inner": "inner raceway", "element": "smooth outer raceway"}[defect["on"]]
-    where = (
-        "spin of the element (degrees),<br>0: the defect faces the outer raceway"
-        if element
-        else "arc from the defect's middle (mm)"
-    )
+    spin = "spin of the element (degrees),<br>0: the defect faces the outer raceway"
+    rows[:, 0] *= scale
     return {
         "title": f"Defect {number}: {body if not element else 'element ' + str(defect['element'])}, {told} passages",
         "body": body,
-        "axis": where,
+        "axis": spin if element else "arc from the defect's middle (mm)",
         "along": "°" if element else "mm",
         "surface": outline.tolist(),
-        "x": packed(rows[:, 0] * scale),
-        "y": packed(rows[:, 1]),
-        "time": packed(rows[:, 2]),
-        "element": packed(rows[:, 3]),
+        **dict(zip(("x", "y", "time", "element"), map(packed, rows.T))),
     }
 
 

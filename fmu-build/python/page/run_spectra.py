@@ -72,44 +72,20 @@ def spectra(about):
         # Where the speed changes, the envelope is taken in time and then at equal angles between these times.
         used = about["orders"]["said"] if speed else {}
         turning = {"speed": speed, "from": used["from_s"], "to": used["to_s"]} if speed else None
-        yield (
-            f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; lines are {said['line_width_hz']:.2g} Hz wide",
-            spectrum(
-                data["frequency"],
-                data["amplitude"],
-                said["line_width_hz"],
-                said["frequencies_hz"],
-                about["count"],
-                band=said["band_hz"],
-                turning=turning,
-                log=False,
-                unit="Hz",
-                name="squared envelope",
-                axis="frequency (Hz)",
-                label="squared envelope<br>(share of its mean)",
-                shown=float(data["frequency"][-1]),
-            ),
-        )
+        wide = f"lines are {said['line_width_hz']:.2g} Hz wide"
+        yield f"Envelope spectrum, {low:.3g} to {high:.3g} kHz{at}; {wide}", spectrum(
+            data["frequency"], data["amplitude"], said["line_width_hz"], said["frequencies_hz"], about["count"],
+            band=said["band_hz"], turning=turning, log=False, unit="Hz", name="squared envelope",
+            axis="frequency (Hz)", label="squared envelope<br>(share of its mean)", shown=float(data["frequency"][-1]),
+        )  # fmt: skip
     if about["orders"]:
         data, said = plotting.read_csv(about["orders"]["file"]), about["orders"]["said"]
-        yield (
-            f"Order spectrum of the acceleration, {said['from_s']:.4g} to {said['to_s']:.4g} s; "
-            f"lines are {said['line_width']:.2g} orders wide",
-            spectrum(
-                data["order"],
-                data["amplitude"],
-                said["line_width"],
-                said["orders"],
-                about["count"],
-                band=None,
-                log=True,
-                unit="×",
-                name="acceleration",
-                axis="order (times per turn)",
-                label="amplitude (m/s²)",
-                shown=min(float(data["order"][-1]), 6 * said["orders"]["BPFI"]),
-            ),
-        )
+        span = f"{said['from_s']:.4g} to {said['to_s']:.4g} s"
+        yield f"Order spectrum of the acceleration, {span}; lines are {said['line_width']:.2g} orders wide", spectrum(
+            data["order"], data["amplitude"], said["line_width"], said["orders"], about["count"],
+            band=None, log=True, unit="×", name="acceleration", axis="order (times per turn)", label="amplitude (m/s²)",
+            shown=min(float(data["order"][-1]), 6 * said["orders"]["BPFI"]),
+        )  # fmt: skip
 
 
 def spectrogram(run, about):
@@ -130,11 +106,5 @@ def spectrogram(run, about):
     rows = len(power) // every * every
     power = power[:rows].reshape(-1, every, power.shape[1]).max(axis=1)
     level = 10 * np.log10(power / power.max() + 1e-8)
-    step = float(frequency[1] - frequency[0]) * every
-    return {
-        "time": packed(at + time[0]),
-        "step": step,
-        "rows": len(level),
-        "level": packed(level),
-        "name": about["sensor"],
-    }
+    step, name = float(frequency[1] - frequency[0]) * every, about["sensor"]
+    return {"time": packed(at + time[0]), "step": step, "rows": len(level), "level": packed(level), "name": name}

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import plotting
 from events import NUMBERED, find_events, listed
-from host import Host
+from host import started
 from plotting import BLUE, GREEN, SKY, VERMILION, np, plt
 
 LONG_STEP, SHORT_STEP = 1e-5, 1e-6  # s; the sensor rings at 15 kHz, contacts at up to 50 kHz
@@ -43,7 +43,7 @@ def drive(host, raceway, radius):
     common = ["housing.ay", "sensor.acceleration", "cage.speed"]
     local = ["angle", "force.inner", "force.outer", "path"]
     names = common + [f"element[{j}].{what}" for j in range(1, count + 1) for what in local]
-    centre = host.start["defect.angle"]
+    (centre,) = host.read(["defect.angle"])
     rows, chosen, leaves = [], None, None
     while host.time < OVERVIEW:
         rows.append([host.time, *host.read(names)])
@@ -60,7 +60,7 @@ def drive(host, raceway, radius):
     if chosen is None:
         sys.exit(f"no element reached the defect between {SETTLE} s and {OVERVIEW} s")
     table = dict(zip(["time", *names], np.array(rows).T))
-    return table, chosen, count
+    return table, chosen, centre
 
 
 def passage(table, element, raceway, radius, centre):
@@ -103,21 +103,13 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
 
     force.plot(ms, signals["force.outer"], color=SKY, linewidth=3, label="outer contact")
     force.plot(ms, signals["force.inner"], color=VERMILION, linewidth=1, label="inner contact")
-    for what, (when, value) in events.items():
-        if what in ("least", "peak"):
-            force.plot((when - start) * 1e3, value, "o", color="black", markersize=4)
-            # The least on the left, or event 3 would cross it.
-            text, side, anchor = (
-                (f"{value:.0f} N", -6, "right") if what == "least" else (f"re-load peak, {value:.0f} N", 6, "left")
-            )
-            force.annotate(
-                text,
-                ((when - start) * 1e3, value),
-                xytext=(side, 0),
-                textcoords="offset points",
-                ha=anchor,
-                va="center",
-            )
+    # The least on the left, or event 3 would cross it.
+    for what, words, side, anchor in (("least", "", -6, "right"), ("peak", "re-load peak, ", 6, "left")):
+        if what in events:
+            at = ((events[what][0] - start) * 1e3, events[what][1])
+            force.plot(*at, "o", color="black", markersize=4)
+            beside = {"xytext": (side, 0), "textcoords": "offset points", "ha": anchor, "va": "center"}
+            force.annotate(f"{words}{at[1]:.0f} N", at, **beside)
     force.axhline(normal, color="black", linewidth=0.8, linestyle=":", label="before the entry")
     force.set_ylabel(f"force on\nelement {element} (N)")
     force.set_ylim(bottom=min(0.0, force.get_ylim()[0]))
@@ -129,13 +121,9 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
     path.plot(ms, signals["path"] * 1e6, color=GREEN, linewidth=1.6, label=f"path of element {element}")
     path.set_ylabel("depth below the\nraceway (µm)")
     before = float(np.median(signals["path"][ms < 0])) * 1e6
-    path.annotate(
-        f"{before:.0f} µm inside:\nso far the load\npresses both flat",
-        (0.9 * ms[0], before),
-        xytext=(0.94 * ms[0], 3.8 * before),
-        arrowprops={"arrowstyle": "-", "linewidth": 0.7},
-        fontsize=9,
-    )
+    inside = f"{before:.0f} µm inside:\nso far the load\npresses both flat"
+    at, there, line = (0.9 * ms[0], before), (0.94 * ms[0], 3.8 * before), {"arrowstyle": "-", "linewidth": 0.7}
+    path.annotate(inside, at, xytext=there, arrowprops=line, fontsize=9)
     lowest = 1.15 * max(raceway.depth.max(), signals["path"].max()) * 1e6
     path.set_ylim(lowest, -0.25 * lowest)
     path.legend(loc="upper right", ncols=3)
@@ -161,13 +149,13 @@ def main():
     fmu, raceway_csv = Path(sys.argv[1]), Path(sys.argv[2])
     folder = fmu.parent
     raceway = Raceway(raceway_csv)
-    host = Host(str(fmu))
+    host = started(fmu)
     radius = float(sys.argv[3])
     try:
-        table, element, _ = drive(host, raceway, radius)
+        table, element, centre = drive(host, raceway, radius)
     finally:
         host.close()
-    signals, entry, leave = passage(table, element, raceway, radius, host.start["defect.angle"])
+    signals, entry, leave = passage(table, element, raceway, radius, centre)
     normal, events = find_events(signals, entry, leave)
 
     overview = folder / "overview.csv"

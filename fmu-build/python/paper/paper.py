@@ -20,16 +20,8 @@ def read(name):
 def event(axis, at, text, height=0.97, ha="left"):
     """A dotted line with its name at the top of the axis."""
     axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
-    axis.annotate(
-        text,
-        (at, height),
-        xycoords=axis.get_xaxis_transform(),
-        xytext=(3 if ha == "left" else -3, 0),
-        textcoords="offset points",
-        ha=ha,
-        va="top",
-        fontsize=9,
-    )
+    beside = {"xytext": (3 if ha == "left" else -3, 0), "textcoords": "offset points", "ha": ha, "va": "top"}
+    axis.annotate(text, (at, height), xycoords=axis.get_xaxis_transform(), fontsize=9, **beside)
 
 
 def legend_above(axis, *what, **options):
@@ -121,16 +113,9 @@ def epps():
     )
     for axis, (name, scale, label) in zip(axes, panels):
         for case, colour, style, text in curves:
-            if f"{case} {name}" not in data:
-                continue
-            axis.plot(
-                time,
-                scale * data[f"{case} {name}"],
-                style,
-                color=colour,
-                linewidth=1.8 if style == ":" else 0.9,
-                label=text,
-            )
+            if f"{case} {name}" in data:
+                width = 1.8 if style == ":" else 0.9
+                axis.plot(time, scale * data[f"{case} {name}"], style, color=colour, linewidth=width, label=text)
         axis.set_ylabel(label)
         axis.set_xlim(-0.5, 2.5)
     number_events(axes, data, "trace map")
@@ -164,16 +149,8 @@ def spectrograms(rows, title):
         level = 10 * np.log10(power[shown] / power[shown][:, (at > time[0]) & (at < time[-1])].max() + 1e-9)
         for axis, centre, event_name in zip(line, (0.0, exit_at), ("entry", "exit")):
             near = (at > centre - 3) & (at < centre + 9)
-            mesh = axis.pcolormesh(
-                at[near] - centre,
-                frequency[shown],
-                level[:, near],
-                vmin=-30,
-                vmax=0,
-                cmap="viridis",
-                rasterized=True,
-                shading="nearest",
-            )
+            look = {"vmin": -30, "vmax": 0, "cmap": "viridis", "rasterized": True, "shading": "nearest"}
+            mesh = axis.pcolormesh(at[near] - centre, frequency[shown], level[:, near], **look)
             axis.axvline(0, color="white", linewidth=0.9, linestyle=":")
             axis.set_title(f"{label}: {event_name}")
             axis.grid(False)
@@ -225,15 +202,10 @@ def beside():
     styles = ("-", "--", ":")
     for speed, style in zip(speeds, styles * 3):
         data = read(f"beside-{speed}hz-harmonics")
-        bottom.plot(data["harmonic"], data["recording"], style, color=BLUE, marker=".", label=f"recording, {speed} Hz")
-        bottom.plot(
-            data["harmonic"], data["scene"], style, color=VERMILION, marker=".", label=f"with flanks, {speed} Hz"
-        )
-    bottom.set_xlim(1, 20)
-    bottom.set_ylim(0, None)
-    bottom.set_xticks(range(1, 21))
+        for who, colour, label in (("recording", BLUE, "recording"), ("scene", VERMILION, "with flanks")):
+            bottom.plot(data["harmonic"], data[who], style, color=colour, marker=".", label=f"{label}, {speed} Hz")
+    bottom.set(xlim=(1, 20), ylim=(0, None), xticks=range(1, 21), ylabel="amplitude / that of the first")
     bottom.set_xlabel("harmonic of the ball pass frequency in the averaged envelope")
-    bottom.set_ylabel("amplitude / that of the first")
     bottom.legend(ncols=len(speeds))
     plotting.save(figure, stem)
 

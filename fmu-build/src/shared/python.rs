@@ -25,7 +25,7 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("demo.py", include_str!("../../python/paper/demo.py")),
     ("events.py", include_str!("../../python/paper/events.py")),
     ("figures.py", include_str!("../../module/brinell/figures.py")),
-    ("host.py", include_str!("../../python/host.py")),
+    ("host.py", include_str!("../../module/brinell/host.py")),
     ("paper.py", include_str!("../../python/paper/paper.py")),
     ("plotting.py", include_str!("../../python/plotting.py")),
     ("run_figure.py", include_str!("../../python/run_figure.py")),

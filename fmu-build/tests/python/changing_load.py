@@ -8,11 +8,11 @@ terms.
 import math
 import sys
 
-from host import Host
+from host import started
 
 STEP = 5e-5
-host = Host(sys.argv[1])
-mass, damping, stiffness = (host.start[f"shaft.{name}"] for name in ("mass", "damping", "stiffness"))
+host = started(sys.argv[1])
+mass, damping, stiffness = host.read(["shaft.mass", "shaft.damping", "shaft.stiffness"])
 loads = ["shaft.load.x", "shaft.load.y"]
 lowest = highest = -host.read(["shaft.force.y"])[0]
 for count in range(600):

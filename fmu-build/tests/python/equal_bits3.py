@@ -5,12 +5,12 @@ Arguments: number of steps, then pairs of FMUs, FMI 2.0 and FMI 3.0 of one scene
 
 import sys
 
-from host import Host
+from host import started
 from host3 import Host3
 
 count = int(sys.argv[1])
 for two, three in zip(sys.argv[2::2], sys.argv[3::2]):
-    old, new = Host(two), Host3(three)
+    old, new = started(two), Host3(three)
     reals = [v.name for v in old.description.modelVariables if v.causality == "output"]
     # `element[3].path` is the third element of `element.path`.
     outputs = new.names("output")

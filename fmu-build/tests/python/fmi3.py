@@ -7,12 +7,10 @@ from pathlib import Path
 
 import fmpy
 import numpy as np
+from differences import jacobian, press
 from host3 import Host3
 from lxml import etree
 
-NUDGE = {"m": 1e-10, "m/s": 1e-6, "m/s2": 1.0, "N": 0.05, "rad/s": 1e-3, "N.m": 1e-3, "rad": 1e-8, "rad/s2": 1.0}
-# Where the host moves a ring: pressed into the elements, moving a little.
-PRESS = {"shaft.y": -18e-6, "shaft.x": 2e-6, "shaft.vy": 5e-4, "housing.vx": 3e-4}
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 
 
@@ -48,7 +46,7 @@ def terminals(fmu):
 
 def states(fmu):
     """A state put back, and one from bytes, repeat every bit."""
-    host, outputs = Host3(fmu), None
+    host = Host3(fmu)
     outputs = host.names("output")
     step = float(host.description.defaultExperiment.stepSize)
     for _ in range(20):
@@ -72,44 +70,29 @@ def states(fmu):
 def derivatives(fmu):
     """Directional derivatives are central differences, adjoint ones the transposed product; dependencies cover both."""
     host = Host3(fmu)
-    inputs, outputs = host.names("input"), host.names("output")
-    reference = {name: v.valueReference for name, v in host.variables.items()}
-    unknowns, knowns = [reference[n] for n in outputs], [reference[n] for n in inputs]
-    for name, value in PRESS.items():
-        if name in inputs:
-            host.write([name], [value])
+    units, outputs = {name: host.variables[name].unit for name in host.names("input")}, host.names("output")
+    numbers = [name for name in outputs for _ in range(host.size(name))]
+    references = lambda names: [host.variables[name].valueReference for name in names]  # noqa: E731
+    unknowns, knowns = references(outputs), references(units)
+    given = lambda name: host.unit.getDirectionalDerivative(  # noqa: E731
+        unknowns, references([name]), [1.0], len(numbers)
+    )
+    press(host, units)
     for _ in range(13):
         host.step(1e-4)
-    middle = np.array(host.read(outputs))
-    stiff = np.array([n.startswith("shaft.stiffness") for n in outputs for _ in range(host.size(n))])
-    jacobian = np.zeros((len(middle), len(inputs)))
-    for k, name in enumerate(inputs):
-        at, step = host.read([name])[0], NUDGE[host.variables[name].unit]
-        sides = []
-        for value in (at - step, at + step):
-            host.write([name], [value])
-            sides.append(np.array(host.read(outputs)))
-        host.write([name], [at])
-        found = (sides[1] - sides[0]) / (2 * step)
-        given = np.array(host.unit.getDirectionalDerivative(unknowns, [knowns[k]], [1.0], len(middle)))
-        # As in directional.py; a part of the stiffness is rounded as its largest one is.
-        size = np.where(stiff, np.abs(middle[stiff]).max(initial=0.0), np.abs(middle))
-        allowed = 1e-5 * np.abs(given) + 1e-11 * np.maximum(size, 1.0) / step
-        assert np.all(np.abs(found - given) <= allowed), f"{fmu}: {name}"
-        jacobian[:, k] = given
-    seed = np.sin(np.arange(len(middle)) + 0.5)
-    adjoint = np.array(host.unit.getAdjointDerivative(unknowns, knowns, list(seed), len(inputs)))
+    found = jacobian(host, units, numbers, given)
+    seed = np.sin(np.arange(len(numbers)) + 0.5)
+    adjoint = np.array(host.unit.getAdjointDerivative(unknowns, knowns, list(seed), len(units)))
     # Roundings of a sum of some sixty products.
-    assert np.all(np.abs(adjoint - seed @ jacobian) <= 1e-12 * (np.abs(seed) @ np.abs(jacobian))), fmu
+    assert np.all(np.abs(adjoint - seed @ found) <= 1e-12 * (np.abs(seed) @ np.abs(found))), fmu
     # What is not listed as a dependency has derivative 0, element by element.
-    row = 0
+    rows = iter(found)
     for name in outputs:
         listed = host.dependencies(name)
         for element in range(host.size(name)):
-            number = element + 1 if host.variables[name].shape else 0
-            for k, known in enumerate(knowns):
-                assert (number, known) in listed or jacobian[row, k] == 0.0, f"{fmu}: {name} by {inputs[k]}"
-            row += 1
+            number, row = element + 1 if host.variables[name].shape else 0, next(rows)
+            for known, input, derivative in zip(knowns, units, row):
+                assert (number, known) in listed or derivative == 0.0, f"{fmu}: {name} by {input}"
     host.close()
 
 

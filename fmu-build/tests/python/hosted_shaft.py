@@ -11,13 +11,13 @@ import sys
 
 import numpy as np
 
-from host import Host
+from host import started
 
 STEP, COUNT = 5e-7, 24000
 MOTION = ["shaft.x", "shaft.y", "shaft.vx", "shaft.vy", "shaft.ax", "shaft.ay"]
 SEEN = ["shaft.force.x", "shaft.force.y", "housing.y", "element[1].path", "element[1].force.outer"]
 
-own = Host(sys.argv[1], start={"solver.tolerance": 1e-9})
+own = started(sys.argv[1], {"solver.tolerance": 1e-9})
 motion, expected = [own.read(MOTION)], [own.read(SEEN)]
 for _ in range(COUNT):
     own.step(STEP)
@@ -27,7 +27,7 @@ own.close()
 
 start = dict(zip(MOTION, motion[0]))
 start.update({"housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": 1e-9})
-hosted = Host(sys.argv[2], start=start)
+hosted = started(sys.argv[2], start)
 seen = [hosted.read(SEEN)]
 for count in range(COUNT):
     hosted.write(MOTION, motion[count])

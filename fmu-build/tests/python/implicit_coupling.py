@@ -18,7 +18,7 @@ import sys
 
 import numpy as np
 
-from host import Host
+from host import started
 
 MASS, DAMPING, LOAD = 0.1, 200.0, np.array([0.0, -500.0])
 STOP = 0.012  # the element enters the spall at 5 ms and leaves it at 11 ms
@@ -31,8 +31,7 @@ MOST = 50
 
 def monolithic(fmu, step):
     """Position and force of the shaft at the communication points, and the largest force on an element."""
-    start = {"shaft.mass": MASS, "shaft.damping": DAMPING, "solver.tolerance": 1e-9}
-    own = Host(fmu, start=start)
+    own = started(fmu, {"shaft.mass": MASS, "shaft.damping": DAMPING, "solver.tolerance": 1e-9})
     rows = [own.read(POSITION + VELOCITY + FORCE)]
     for _ in range(round(STOP / step)):
         own.step(step)
@@ -53,19 +52,18 @@ def coupled(fmu, step, begin, scheme):
     x, v = np.array(begin[:2]), np.zeros(2)
     start = dict(zip(POSITION, x))
     start.update({"housing.load.x": 0.0, "housing.load.y": 0.0, "solver.tolerance": 1e-9})
-    hosted = Host(fmu, start=start)
+    hosted = started(fmu, start)
     rows, passes = [np.concatenate([x, v, hosted.read(FORCE)])], []
     a = np.zeros(2)
     inertia = MASS + 0.5 * DAMPING * step
     for _ in range(round(STOP / step)):
-        state, time = hosted.unit.getFMUState(), hosted.time
+        hosted.save()
         for count in range(1, MOST + 1):
             if count > 1:
-                hosted.unit.setFMUState(state)
-                hosted.time = time
+                hosted.restore()
             hosted.write(POSITION + VELOCITY + ACCELERATION, np.concatenate([x, v, a]))
             hosted.step(step)
-            push = np.array(hosted.read(MEAN)) + LOAD - DAMPING * v
+            push = hosted.read(MEAN) + LOAD - DAMPING * v
             left = inertia * a - push
             if scheme == "newton":
                 by_a = slope(hosted, POSITION) * step**2 / 6 + slope(hosted, VELOCITY) * step / 2
@@ -78,7 +76,6 @@ def coupled(fmu, step, begin, scheme):
             if np.abs(left).max() < AGREED:
                 break
             a = better
-        hosted.unit.freeFMUState(state)
         passes.append(count)
         x, v = x + step * v + 0.5 * step**2 * a, v + step * a
         if not np.abs(x).max() < 1e-3:

@@ -9,21 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
-from host import Host
+from host import started
 
 SEEN = ["sensor.acceleration", "shaft.force.y", "element[1].path", "cage.angle"]
 folder = Path(sys.argv[1]).parent / "recorded here"
-host = Host(sys.argv[1], start={"recorder.folder": str(folder)})
+host = started(sys.argv[1], {"recorder.folder": str(folder)})
 reference = host.reference["recorder.folder"]
 assert host.unit.getString([reference])[0].decode() == str(folder)
 seen = [host.read(SEEN)]
 for index in range(100):
     if index % 10 == 3:
-        saved = host.unit.getFMUState()
+        host.save()
         host.step(1e-3)
-        host.unit.setFMUState(saved)
-        host.unit.freeFMUState(saved)
-        host.time -= 1e-3
+        host.restore()
     host.step(1e-3)
     seen.append(host.read(SEEN))
 host.close()

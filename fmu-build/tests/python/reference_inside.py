@@ -6,12 +6,9 @@ import tempfile
 from pathlib import Path
 from zipfile import ZipFile
 
-import numpy as np
-from fmpy import read_csv, simulate_fmu
-from fmpy.cross_check import validate_result
-from fmpy.util import read_ref_opt_file
 from fmpy.validation import validate_fmu
 from lxml import etree
+from reference import found_again
 
 PREFIX = "extra/org.fmi-standard.fmi-ls-ref/"
 NAMESPACE = "{http://fmi-standard.org/fmi-ls-manifest}"
@@ -44,20 +41,7 @@ for path in map(Path, sys.argv[1:]):
             beside = path.with_name(name)
             assert fmu.read(PREFIX + name) == beside.read_bytes(), f"{name} differs from the file beside the FMU"
         (results,) = (file.get("source") for file in related if file.get("role") == "result")
-        stem = str(Path(folder) / PREFIX / results.removesuffix("_ref.csv"))
-        options, reference = read_ref_opt_file(stem + "_ref.opt"), read_csv(stem + "_ref.csv")
-        step = options["StepSize"]
+        options, told = found_again(path, Path(folder) / PREFIX / results.removesuffix("_ref.csv"))
         said = [float(described.get(key)) for key in ("startTime", "stopTime", "stepSize", "tolerance")]
         assert said == [options[key] for key in ("StartTime", "StopTime", "StepSize", "RelTol")], said
-        result = simulate_fmu(
-            str(path), stop_time=options["StopTime"], step_size=step, output_interval=step,
-            output=list(reference.dtype.names[1:]), relative_tolerance=options["RelTol"],
-            input=read_csv(stem + "_in.csv"),
-        )  # fmt: skip
-        problem = validate_result(result, reference, options["StartTime"], options["StopTime"])
-        assert problem is None, problem
-        early = reference["time"] < 0.01
-        for name in reference.dtype.names[1:]:
-            size = max(np.ptp(reference[name]), 1e-3 * np.abs(reference[name]).max(), 1e-12)
-            assert np.abs(result[name][early] - reference[name][early]).max() < 1e-6 * size, name
-        print(f"{path.name}: {len(named)} related files, results found again")
+        print(f"{path.name}: {len(named)} related files, results found again: {told}")

@@ -109,6 +109,18 @@ def linear_along_the_axis():
     return found
 
 
+def last_turns(run, speed):
+    return run.t > run.t[-1] - 5 * 2 * np.pi / speed
+
+
+def amplitude(run, speed, coordinate):
+    """At shaft speed, fitted together with the mean: five turns hold no whole number of passages."""
+    late = last_turns(run, speed)
+    shapes = np.column_stack([np.cos(speed * run.t), np.sin(speed * run.t), np.ones_like(run.t)])[late]
+    cos, sin, _ = np.linalg.lstsq(shapes, run.yout[late, coordinate], rcond=None)[0]
+    return np.hypot(cos, sin)
+
+
 def moves_as_linear_at_one_speed():
     """Gives the largest difference of amplitudes at shaft speed."""
     speed, eccentric, pressed = 157.08, 1e-4, {3: (0.0, -1000.0)}
@@ -120,13 +132,8 @@ def moves_as_linear_at_one_speed():
     linear = slender(*linear_elements(carried, [speed])).run_unbalance_response(
         [3], [eccentric], [0.0], np.array([speed])
     )
-    late = run.t > run.t[-1] - 5 * 2 * np.pi / speed
-    # Amplitude and mean together: five turns hold no whole number of passages.
-    shapes = np.column_stack([np.cos(speed * run.t), np.sin(speed * run.t), np.ones_like(run.t)])[late]
-    apart = []
-    for axis in (0, 1):
-        cos, sin, _ = np.linalg.lstsq(shapes, run.at(3)[late, axis], rcond=None)[0]
-        apart.append(abs(np.hypot(cos, sin) / np.abs(linear.forced_resp[run.rotor.number_dof * 3 + axis, 0]) - 1.0))
+    coordinates = [run.rotor.number_dof * 3 + axis for axis in (0, 1)]
+    apart = [abs(amplitude(run, speed, at) / np.abs(linear.forced_resp[at, 0]) - 1.0) for at in coordinates]
     # 0.03 % and 0.003 %: what the stiffness varies as elements pass, which a linear bearing has the mean of.
     assert max(apart) < 2e-3, apart
     return max(apart), carried
@@ -178,7 +185,7 @@ def moves_along_and_tilts_in_a_pair():
         assert np.abs(coupled.rest_force[[3, 4, 8, 9]]).max() < 1e-6, "a moment at rest"
         stiffness, system = coupled.stiffness, coupled.system(speed)
     run = simulate(free, bearings, speed, 0.3, forces=forces, preloads=preloads, passes=2, seen=["shaft.force.z"])
-    late = run.t > 0.3 - 5 * 2 * np.pi / speed
+    late = last_turns(run, speed)
     z = run.yout[late, run.rotor.number_dof * 4 + 2].mean()
     # Statics of the pair's 5 x 5 stiffnesses and of the shaft, which yields a tenth as much.
     at = system.nodes(tuple(bearings), coupled.axes)
@@ -194,11 +201,10 @@ def moves_along_and_tilts_in_a_pair():
     drive = np.zeros(system.size, dtype=complex)
     drive[system.at(3)] = eccentric * speed**2 * np.array([1.0, -1.0j])
     linear = np.linalg.solve(system.K - speed**2 * system.M + 1j * speed * system.C, drive)
-    shapes = np.column_stack([np.cos(speed * run.t), np.sin(speed * run.t), np.ones_like(run.t)])[late]
     apart = []
     for node, name, column in ((3, "x", 0), (3, "y", 1), (0, "tilt.x", 3), (8, "tilt.y", 4)):
-        cos, sin, _ = np.linalg.lstsq(shapes, run.yout[late, run.rotor.number_dof * node + column], rcond=None)[0]
-        apart.append(abs(np.hypot(cos, sin) / np.abs(linear[system.at(node, (name,))[0]]) - 1.0))
+        found = amplitude(run, speed, run.rotor.number_dof * node + column)
+        apart.append(abs(found / np.abs(linear[system.at(node, (name,))[0]]) - 1.0))
     # 0.03 %: what the stiffness varies as balls pass.
     assert max(apart) < 2e-3, apart
     return along_apart, max(apart)
