@@ -17,15 +17,18 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 use dist::{made, names};
 use fmu_build::platforms::{OLDEST_GLIBC, needed_glibc};
 use object::{Architecture, BinaryFormat, Object, macho};
 use zip::ZipArchive;
 
-fn said(output: &Output) -> String {
-    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+/// All that a command says, which must do what it is told.
+#[track_caller]
+fn said(command: &mut Command) -> String {
+    let said = common::program::done(command);
+    said.out + &said.err
 }
 
 /// A program on a user's machine, and the empty folder that it stands in.
@@ -56,8 +59,7 @@ fn environment() -> PathBuf {
     assert!(done.success());
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     let what = format!("{}[figures]", wheel.display());
-    let output = Command::new(folder.join("bin/python")).args(install).arg(what).output().unwrap();
-    assert!(output.status.success(), "{}", said(&output));
+    said(Command::new(folder.join("bin/python")).args(install).arg(what));
     folder.join("bin")
 }
 
@@ -71,8 +73,7 @@ mod all_platforms {
         let bin = environment();
         let (here, mut demo) = user("wheel-demo", &bin.join("brinell"), &bin);
         assert!(Command::new("which").arg("cargo").env("PATH", "/usr/bin:/bin").status().is_ok_and(|s| !s.success()));
-        let output = demo.arg("demo").output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
+        said(demo.arg("demo"));
         assert_eq!(names(&here), BTreeSet::from(["brinell-demo".to_owned()]));
         let drawn = names(&here.join("brinell-demo"));
         assert!(
@@ -84,17 +85,16 @@ mod all_platforms {
         assert!(svg.len() > 100_000, "{} bytes", svg.len());
 
         let (here, mut build) = user("wheel-build", &bin.join("brinell"), &bin);
-        let output = build.args(["build", "er16k-tb1"]).output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
+        let told = said(build.args(["build", "er16k-tb1"]));
         assert_eq!(names(&here), BTreeSet::from(["er16k-tb1.fmu".to_owned()]));
         for platform in ["linux64", "win64", "darwin64", "aarch64-linux"] {
-            assert!(said(&output).contains(&format!("{platform}: ")), "{}", said(&output));
+            assert!(told.contains(&format!("{platform}: ")), "{told}");
         }
 
         let (here, mut python) = user("wheel-module", &bin.join("python"), &bin);
         let code = "import brinell; run = brinell.run('er16k-tb1', stop=0.01); print(run, run['shaft.y'][-1])";
-        let output = python.args(["-c", code]).output().unwrap();
-        assert!(output.status.success() && said(&output).contains("101 points until 0.0"), "{}", said(&output));
+        let told = said(python.args(["-c", code]));
+        assert!(told.contains("101 points until 0.0"), "{told}");
         assert_eq!(names(&here), BTreeSet::new());
     }
 
@@ -131,8 +131,7 @@ mod all_platforms {
                 None => Command::new(&program),
             };
             as_user(&mut command, &here, &top);
-            let output = command.args(["build", "6205-epps"]).output().unwrap();
-            assert!(output.status.success(), "{end}: {}", said(&output));
+            said(command.args(["build", "6205-epps"]));
             assert_eq!(names(&here), BTreeSet::from(["6205-epps.fmu".to_owned()]), "{end}");
             fmus.push((end, fs::read(here.join("6205-epps.fmu")).unwrap()));
         }

@@ -84,7 +84,7 @@ fn model(scene: &str) -> Model {
     let Some(shipped) = scene.strip_suffix("-straight") else {
         return common::model(scene);
     };
-    let text = fs::read_to_string(common::root().join(format!("scenes/{shipped}.toml"))).unwrap();
+    let text = common::scene_text(shipped);
     let crowned = |line: &&str| line.starts_with("roller_profile") || line.starts_with("roller_laminae");
     assert_eq!(text.lines().filter(crowned).count(), 2, "{shipped}");
     let straight: Vec<_> = text.lines().filter(|line| !crowned(line)).collect();

@@ -80,8 +80,7 @@ impl Machine {
     /// Every golden run; the first line of each that differs.
     fn golden_runs(&self) {
         let mut differ = Vec::new();
-        let scenes = common::scenes().into_iter().map(|scene| scene.file_stem().unwrap().to_str().unwrap().to_owned());
-        for name in scenes.chain(BY_PATH.map(|name| name.to_owned() + AS_SHIPPED)) {
+        for name in common::names().into_iter().chain(BY_PATH.map(|name| name.to_owned() + AS_SHIPPED)) {
             let case = Case::golden(&name);
             let folder = self.folder.join(&name);
             common::lay(&case.model, &folder);
@@ -146,7 +145,7 @@ fn golden_model(name: &str) -> Model {
     if !BY_PATH.contains(&name) {
         return common::model(scene_of(name));
     }
-    let text = fs::read_to_string(common::root().join(format!("scenes/{name}.toml"))).unwrap();
+    let text = common::scene_text(name);
     assert_eq!(text.matches("law = \"map\"").count(), 1, "{name}");
     let file = common::folder("by-path").join(format!("{name}.toml"));
     fs::write(&file, text.replace("law = \"map\"", "law = \"hertz\"")).unwrap();

@@ -14,6 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use common::program::done;
 use fmu_build::package::{Choice, Library};
 use fmu_build::platforms::Platform;
 use fmu_build::shared::{Project, Version};
@@ -52,10 +53,7 @@ impl WindowsPython {
 
 /// What a command prints.
 fn printed(mut command: Command) -> String {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace('\r', "");
-    assert!(output.status.success(), "{command:?}: {}{}", text(&output.stdout), text(&output.stderr));
-    text(&output.stdout)
+    done(&mut command).out.replace('\r', "")
 }
 
 /// Apart, so that the nightly run can leave them to `.ci/platforms`.
@@ -68,14 +66,10 @@ mod all_platforms {
         let platforms = vec!["linux64".to_owned(), "win64".to_owned()];
         let library = Library::obtain(&Project::find(), &Choice { file: None, platforms }).unwrap();
         let folder = common::folder("Wälzlager für Windows");
-        let scenes = common::scenes();
-        let fmus: Vec<_> = scenes
-            .iter()
-            .map(|scene| {
-                let model = common::model(scene.file_stem().unwrap().to_str().unwrap());
-                fmu_build::package::write(&model, &library, Version::Fmi2, &folder).unwrap()
-            })
-            .collect();
+        let scenes = common::names();
+        let write =
+            |name: &String| fmu_build::package::write(&common::model(name), &library, Version::Fmi2, &folder).unwrap();
+        let fmus: Vec<_> = scenes.iter().map(write).collect();
         let here = common::run_script("bits.py", words(&folder.join("here"), &fmus, Path::to_path_buf));
 
         let python = WindowsPython::new("windows-python", &[]);

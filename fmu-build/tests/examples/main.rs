@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fmu_build::shared::{Project, Python};
+use fmu_build::shared::Python;
 use serde_json::Value;
 
 const RIGID: &str = "python examples/step_by_step.py --stop 0.06";
@@ -34,43 +34,20 @@ const SET_UP: [&str; 6] = [
     // tests/fmu/reference.rs runs it, with all scenes.
     "brinell build er16k-tb1 --reference",
     "brinell build er16k-tb1 --reference --fmi 3",
-    // tests/program/contact.rs runs it, on fewer cells.
+    // tests/program/reports/contact.rs runs it, on fewer cells.
     "brinell contact er16k-tb1 --on outer --angle 7.85 --force 300",
 ];
 
-/// The environment of all packages that examples need; with `BRINELL_NEWEST_ROSS` that of the newest ROSS which pip
-/// finds for this Python, and of what it brings along.
-fn with_all_packages() -> &'static Python {
-    static PYTHON: OnceLock<Python> = OnceLock::new();
-    PYTHON.get_or_init(|| {
-        let (name, requirements) = if std::env::var_os("BRINELL_NEWEST_ROSS").is_some() {
-            ("examples-python-newest", "ross-rotordynamics\nfmpy\nmatplotlib\n".to_owned())
-        } else {
-            ("examples-python", fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap())
-        };
-        that_builds(Python::prepare_from(&Project::find(), name, &requirements).unwrap())
-    })
-}
-
-/// The environment of fmpy and matplotlib.
+/// The environment of fmpy and matplotlib, with this build's program and library.
 fn python() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
-    PYTHON.get_or_init(|| that_builds(Python::prepare(&Project::find()).unwrap()))
-}
-
-/// With this build's program and library.
-fn that_builds(python: Python) -> Python {
-    // Contact maps are computed once and then kept; without this two tests would compute the same one.
-    let folder = common::folder("maps");
-    for scene in ["er16k-tb1", "er16k-tb1-hosted-shaft"] {
-        common::fmu_of(scene, &folder);
-    }
-    let python = python.with_variable("BRINELL_FMU", env!("CARGO_BIN_EXE_brinell"));
-    let python = python.with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    match common::built_with_the_tests() {
-        Some(library) => python.with_variable("BRINELL_LIBRARY", library),
-        None => python,
-    }
+    PYTHON.get_or_init(|| {
+        // Contact maps are computed once and then kept; without this two tests would compute the same one.
+        for scene in ["er16k-tb1", "er16k-tb1-hosted-shaft"] {
+            common::model(scene);
+        }
+        common::that_builds(common::python().clone())
+    })
 }
 
 /// Runs a command of the guide with a folder of its own, and gives what it said.
@@ -114,6 +91,15 @@ fn has_figure(stem: PathBuf) {
     }
 }
 
+/// So many SSP files with two FMUs each.
+fn hold_two_fmus<'a>(systems: impl Iterator<Item = &'a str>, count: usize) {
+    let fmus = systems.map(|system| {
+        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
+        archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count()
+    });
+    assert_eq!(fmus.collect::<Vec<_>>(), vec![2; count]);
+}
+
 fn page(name: &str) -> String {
     fs::read_to_string(common::root().join("docs").join(name)).unwrap()
 }
@@ -148,24 +134,19 @@ fn the_code_in_the_guide_runs() {
     assert_eq!(code.len(), 1);
     let root = common::root().display().to_string();
     let folder = common::folder("guide");
-    let script = folder.join("guide.py");
     let text = code[0]
         .replace("\"examples\"", &format!("{:?}", format!("{root}/examples")))
         .replace("\"target/examples\"", &format!("{:?}", folder.display().to_string()));
-    fs::write(&script, text).unwrap();
-    python().run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    common::run_text(python(), &folder, &text, [""; 0]);
 }
 
 #[test]
 fn an_fmu_bears_its_scenes_name_whatever_its_files_is() {
     let folder = common::folder("example-names");
     fs::copy(common::root().join("scenes/6205-healthy.toml"), folder.join("another.toml")).unwrap();
-    let script = folder.join("names.py");
     let text = "import sys\nsys.path.insert(0, sys.argv[1])\nfrom bearing import build\n\
                 [fmu] = build([sys.argv[2] + '/another.toml'], sys.argv[2])\nprint(fmu.name, fmu.is_file())";
-    fs::write(&script, text).unwrap();
-    let said =
-        python().run_file(&script, [common::root().join("examples"), folder]).unwrap_or_else(|e| panic!("{e:#}"));
+    let said = common::run_text(python(), &folder, text, [&common::root().join("examples"), &folder]);
     assert_eq!(said.trim(), "6205-healthy.fmu True");
 }
 
@@ -174,13 +155,10 @@ fn an_fmu_bears_its_scenes_name_whatever_its_files_is() {
 fn examples_call_the_installed_program_and_cargo_only_where_there_is_none() {
     use std::os::unix::fs::PermissionsExt;
     let folder = common::folder("example-program");
-    let script = folder.join("program.py");
-    let text = "import sys\nsys.path.insert(0, sys.argv[1])\nimport bearing\n\
-                print(bearing.program())";
-    fs::write(&script, text).unwrap();
+    let text = "import sys\nsys.path.insert(0, sys.argv[1])\nimport bearing\nprint(bearing.program())";
     let said = |python: Python| {
         let python = python.with_variable("PATH", &folder);
-        python.run_file(&script, [common::root().join("examples")]).unwrap_or_else(|error| panic!("{error:#}"))
+        common::run_text(&python, &folder, text, [common::root().join("examples")])
     };
     assert!(said(common::python().clone()).starts_with("['cargo', 'fmu']"));
     let installed = folder.join("brinell");
@@ -209,10 +187,8 @@ fn two_bearings_carry_a_rigid_rotor() {
 #[ignore = "half a minute; at night"]
 fn a_rotor_run_up_moves_alike_by_both_hosts_and_nearly_as_in_linear_bearings() {
     let folder = common::folder("example-run-up");
-    run(&format!("{RUN_UP_SYSTEM} --ssp 2.0"), &folder);
-    let system = zip::ZipArchive::new(fs::File::open(folder.join("run-up.ssp")).unwrap()).unwrap();
-    assert_eq!(system.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
-    common::python().run("validate.py", [folder.join("disk.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+    hold_two_fmus(run(&format!("{RUN_UP_SYSTEM} --ssp 2.0"), &folder).lines(), 1);
+    common::validate([folder.join("disk.fmu")]);
     let said = last(&run(RUN_UP, &folder));
     has_figure(folder.join("run_up"));
     // Over 20 ms at 20 µs: twice what was found.
@@ -236,13 +212,8 @@ fn a_rotor_run_up_moves_alike_by_both_hosts_and_nearly_as_in_linear_bearings() {
 fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
     let folder = common::folder("example-pair");
     let said = run(PAIR, &folder);
-    let systems: Vec<&str> = said.lines().filter(|line| line.ends_with(".ssp")).collect();
-    assert_eq!(systems.len(), 3, "{said}");
-    for system in systems {
-        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
-        assert_eq!(archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
-    }
-    common::python().run("validate.py", [folder.join("shaft.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+    hold_two_fmus(said.lines().filter(|line| line.ends_with(".ssp")), 3);
+    common::validate([folder.join("shaft.fmu")]);
     // Two bearings of 25 degrees closed by 5 µm each hold 9.55e7 N/m at rest; at 50 Hz balls press the inner
     // ring a little less.
     let stiffness: f64 = said.split_once("stiffness: ").unwrap().1.split(' ').next().unwrap().parse().unwrap();
@@ -272,13 +243,9 @@ fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
 fn a_system_of_bearing_and_rotor_is_as_exact_by_each_algorithm_as_its_page_says() {
     let folder = common::folder("example-system");
     let said = run(SYSTEMS, &folder);
-    assert_eq!(said.lines().count(), 6, "{said}");
-    for system in said.lines() {
-        let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
-        assert_eq!(archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count(), 2);
-    }
+    hold_two_fmus(said.lines(), 6);
     // The rotor is an FMU that any importer can take.
-    common::python().run("validate.py", [folder.join("rotor.fmu")]).unwrap_or_else(|error| panic!("{error:#}"));
+    common::validate([folder.join("rotor.fmu")]);
 
     let rows = table(&run(SYSTEM, &folder), 5);
     assert_eq!(rows.len(), 18);

@@ -1,22 +1,19 @@
 //! Rotors of ROSS in bearings of ours, in the environment that has ROSS.
 
-use std::fs;
 use std::path::Path;
 
-use super::{ROSS, common, has_figure, last, run_in, with_all_packages};
+use super::common::{self, examples_python};
+use super::{ROSS, has_figure, last, run_in};
 
-/// ROSS does not run on Python 3.9, whatever it says of itself: there the module must say so.
+/// Where ROSS does not run, the module must say so.
 fn has_ross() -> bool {
-    let folder = common::folder("version");
-    let script = folder.join("version.py");
-    fs::write(&script, "import sys\nprint(sys.version_info >= (3, 10))").unwrap();
-    let new = with_all_packages().run_file(&script, [""; 0]).unwrap().trim() == "True";
-    if !new {
+    let has_ross = common::has_ross();
+    if !has_ross {
         let script = common::root().join("examples/rotor_ross.py");
-        let said = with_all_packages().run_file(&script, [""; 0]).unwrap_err().to_string();
+        let said = examples_python().run_file(&script, [""; 0]).unwrap_err().to_string();
         assert!(said.contains("ROSS 2 needs Python 3.10"), "{said}");
     }
-    new
+    has_ross
 }
 
 #[test]
@@ -26,7 +23,7 @@ fn a_ross_rotor_shows_the_passage_frequency_of_a_spalled_bearing_with_sidebands_
         return;
     }
     let folder = common::folder("example-ross");
-    let said = last(&run_in(with_all_packages(), ROSS, &folder));
+    let said = last(&run_in(examples_python(), ROSS, &folder));
     has_figure(folder.join("rotor_ross"));
     let order = said["bpfo_order"].as_f64().unwrap();
     // 9/2 (1 − 7.94/39.32)
@@ -51,5 +48,5 @@ fn rotors_rest_and_run_up_in_our_bearings_as_in_linear_ones_of_ross() {
     let folder = common::folder("example-rotors");
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/ross_rotors.py");
     let arguments = [common::root().join("examples"), folder];
-    println!("{}", with_all_packages().run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}")));
+    println!("{}", examples_python().run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}")));
 }

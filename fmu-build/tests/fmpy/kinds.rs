@@ -16,24 +16,25 @@ fn packed(scenes: &[&str], interface: Interface, folder: &str) -> Vec<PathBuf> {
 
 #[test]
 fn cvode_of_fmpy_integrates_what_the_fmu_integrates_itself() {
-    for (version, folder) in [(Version::Fmi2, "exchange2"), (Version::Fmi3, "exchange3")] {
+    let fmus = [(Version::Fmi2, "exchange2"), (Version::Fmi3, "exchange3")].map(|(version, folder)| {
         let interface = Interface { version, kind: Kind::Both, ..Interface::default() };
-        let fmus = packed(&["6205-healthy", "er16k-tb1"], interface, folder);
-        println!("{}", common::run_script("model_exchange.py", fmus));
-    }
+        packed(&["6205-healthy", "er16k-tb1"], interface, folder)
+    });
+    println!("{}", common::run_script("model_exchange.py", fmus.concat()));
 }
 
 #[test]
 fn fmpy_finds_nothing_wrong_with_other_kinds_names_and_scalars() {
     let scenes = ["6205-healthy", "6205-hosted", "er16k-inner", "6205-two-defects"];
+    let mut fmus = Vec::new();
     for version in [Version::Fmi2, Version::Fmi3] {
         for kind in [Kind::Cs, Kind::Me, Kind::Both] {
             let scalars = version == Version::Fmi3;
             let interface = Interface { version, kind, names: Names::Flat, scalars };
-            let fmus = packed(&scenes, interface, &format!("kinds-{}-{kind:?}", version.number()));
-            common::python().run("validate.py", fmus).unwrap_or_else(|error| panic!("{error:#}"));
+            fmus.extend(packed(&scenes, interface, &format!("kinds-{}-{kind:?}", version.number())));
         }
     }
+    common::validate(fmus);
 }
 
 #[test]

@@ -142,11 +142,7 @@ fn written(ours: &str, what: &str) -> String {
 fn is_listed(ours: &str, what: &str, file: &str) -> String {
     let file = common::root().join("fmu-build/assets").join(file);
     let written = written(ours, what);
-    if env::var_os("BLESS").is_some_and(|value| value == "1") {
-        fs::write(&file, &written).unwrap();
-    }
-    let committed = fs::read_to_string(&file).unwrap_or_default();
-    assert!(committed == written, "{} is not that of the dependencies; bless it", file.display());
+    common::is_committed(&file, &written);
     written
 }
 

@@ -4,60 +4,48 @@
 
 use crate::common;
 use std::collections::BTreeSet;
-use std::{env, fs};
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use brinell::simulation::interface::table::{Causality, Kind, Variability};
 use fmu_build::package::Model;
 use fmu_build::package::description::{model_description, units};
 use fmu_build::shared::Version;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
 
-#[test]
-fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
-    let folder = common::root().join("modelDescription");
-    let bless = env::var_os("BLESS").is_some_and(|value| value == "1");
-    let mut expected = BTreeSet::new();
-    for scene in common::scenes() {
-        let model = Model::read(&scene).unwrap();
-        let file = folder.join(&model.scene.name).with_extension("xml");
-        let written = model_description(&model, Version::Fmi2).unwrap();
-        if bless {
-            fs::create_dir_all(&folder).unwrap();
-            fs::write(&file, &written).unwrap();
-        }
-        let committed = fs::read_to_string(&file).unwrap_or_default();
-        if let Some((line, (new, old))) = (1..).zip(written.lines().zip(committed.lines())).find(|(_, (a, b))| a != b) {
-            panic!("{} line {line}:\n  committed {old}\n  now       {new}\nbless it if it is meant", file.display());
-        }
-        assert_eq!(written.len(), committed.len(), "{} is shorter or longer; bless it if it is meant", file.display());
-        expected.insert(file);
-    }
-    expected.insert(folder.join("fmi3"));
-    let there: BTreeSet<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    assert_eq!(there, expected, "modelDescription/ holds one file for each scene and a folder for FMI 3.0");
+fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
+    let found = element.try_get_attribute(name).unwrap()?;
+    Some(found.normalized_value(XmlVersion::Implicit1_0).unwrap().into_owned())
 }
 
 /// Scenes whose interfaces after FMI 3.0 are kept: inputs for forces and for motion, a scalar of one element, several
 /// sensors. All others follow from the same rows.
 const KEPT: [&str; 4] = ["6205-hosted", "6205-two-defects", "er16k-element", "er16k-tb1"];
 
+/// A folder holds the descriptions of these scenes, as they are now, and `more`.
+fn are_committed(folder: &Path, names: &[&str], version: Version, more: Option<PathBuf>) {
+    let mut expected = BTreeSet::from_iter(more);
+    for name in names {
+        let file = folder.join(name).with_extension("xml");
+        common::is_committed(&file, &model_description(&common::model(name), version).unwrap());
+        expected.insert(file);
+    }
+    let there: BTreeSet<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(there, expected, "one file for each scene");
+}
+
+#[test]
+fn the_committed_model_descriptions_are_those_of_the_shipped_scenes() {
+    let (folder, names) = (common::root().join("modelDescription"), common::names());
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    are_committed(&folder, &names, Version::Fmi2, Some(folder.join("fmi3")));
+}
+
 #[test]
 fn the_committed_model_descriptions_of_fmi_3_are_those_of_their_scenes() {
-    let folder = common::root().join("modelDescription/fmi3");
-    for name in KEPT {
-        let written = model_description(&common::model(name), Version::Fmi3).unwrap();
-        let file = folder.join(name).with_extension("xml");
-        if env::var_os("BLESS").is_some_and(|value| value == "1") {
-            fs::create_dir_all(&folder).unwrap();
-            fs::write(&file, &written).unwrap();
-        }
-        let committed = fs::read_to_string(&file).unwrap_or_default();
-        let pairs = written.lines().zip(committed.lines());
-        let differing = pairs.clone().find(|(new, old)| new != old);
-        assert!(differing.is_none(), "{}: now and committed {differing:#?}; bless it if it is meant", file.display());
-        assert_eq!(written.len(), committed.len(), "{} is shorter or longer", file.display());
-    }
-    let there: BTreeSet<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    assert_eq!(there, KEPT.map(|name| folder.join(name).with_extension("xml")).into());
+    are_committed(&common::root().join("modelDescription/fmi3"), &KEPT, Version::Fmi3, None);
 }
 
 #[test]
@@ -66,17 +54,13 @@ fn both_versions_have_the_same_variables_by_the_same_names() {
         let model = Model::read(&scene).unwrap();
         let written = model_description(&model, Version::Fmi3).unwrap();
         let mut names: BTreeSet<String> = BTreeSet::new();
-        let mut reader = quick_xml::reader::Reader::from_str(&written);
+        let mut reader = Reader::from_str(&written);
         let mut last = String::new();
         loop {
-            use quick_xml::events::Event;
             match reader.read_event().unwrap() {
                 Event::Eof => break,
                 Event::Start(element) | Event::Empty(element) => {
-                    let attribute = |name| {
-                        let found = element.try_get_attribute(name).unwrap()?;
-                        Some(found.normalized_value(quick_xml::XmlVersion::Implicit1_0).unwrap().into_owned())
-                    };
+                    let attribute = |name| attribute(&element, name);
                     if attribute("causality").is_some() {
                         last = attribute("name").unwrap();
                         assert!(names.insert(last.clone()), "{last} twice");
@@ -177,16 +161,13 @@ fn special_characters_of_a_scene_survive_in_the_xml() {
     let mut model = common::model("6205-healthy");
     model.scene.description = "Ø 7.94 < \"8\" & more,\n\ton two lines".to_owned();
     let written = model_description(&model, Version::Fmi2).unwrap();
-    let mut reader = quick_xml::reader::Reader::from_str(&written);
+    let mut reader = Reader::from_str(&written);
     let description = loop {
         match reader.read_event().unwrap() {
-            quick_xml::events::Event::Start(element) if element.name().as_ref() == "fmiModelDescription" => {
-                let attribute = element.try_get_attribute("description").unwrap().unwrap();
-                break attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0).unwrap().into_owned();
-            }
-            quick_xml::events::Event::Eof => panic!("no root element"),
+            Event::Start(root) => break attribute(&root, "description"),
+            Event::Eof => panic!("no root element"),
             _ => {}
         }
     };
-    assert_eq!(description, model.scene.description);
+    assert_eq!(description, Some(model.scene.description));
 }

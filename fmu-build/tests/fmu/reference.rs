@@ -4,16 +4,16 @@
 use crate::common;
 use std::ffi::OsString;
 use std::path::Path;
-use std::process::Command;
+
+use crate::common::program::{brinell, done};
+use fmu_build::shared::Version;
 
 fn build(options: &[&str], folder: &Path) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = brinell(&["build", "--reference"]);
     if let Some(library) = common::built_with_the_tests() {
         command.env("BRINELL_LIBRARY", library);
     }
-    let output = command.args(["build", "--reference"]).args(options).arg("-o").arg(folder).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    done(command.args(options).arg("-o").arg(folder)).out
 }
 
 fn the_cross_check_finds_them(names: &[&str], folder: &str) {
@@ -38,17 +38,17 @@ fn the_cross_check_finds_the_reference_results_of_every_shipped_scene() {
 
 #[test]
 fn an_fmu_holds_its_reference_results_with_their_manifest_and_experiment() {
-    for version in ["2", "3"] {
+    let fmus = ["2", "3"].map(|version| {
         let folder = common::folder(&format!("reference-in-{version}"));
         build(&["er16k-tb1", "6205-hosted", "--fmi", version], &folder);
-        let fmus = [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")];
-        println!("{}", common::run_script("reference_inside.py", fmus));
-    }
+        [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")]
+    });
+    println!("{}", common::run_script("reference_inside.py", fmus.concat()));
 }
 
 #[test]
 fn without_being_asked_an_fmu_holds_no_reference_results() {
-    let bytes = std::fs::read(common::fmu3_of("6205-healthy", &common::folder("no-reference"))).unwrap();
-    let archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let file = std::fs::File::open(common::fmu("6205-healthy", Version::Fmi3)).unwrap();
+    let archive = zip::ZipArchive::new(file).unwrap();
     assert!(archive.file_names().all(|name| !name.unwrap().starts_with("extra/")));
 }

@@ -2,23 +2,23 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
-use crate::size::{RATE, csv, healthy};
+use crate::common::program::{brinell, tried};
+use crate::reports::size::{RATE, csv, healthy};
 use brinell_tests::snapshot;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// Notes of a command that does what it is told, or its error without how it is used; where nothing may be left behind.
 fn answer(command: &str, folder: &Path) -> String {
-    let words = command.split(' ').map(|word| if word == "''" { "" } else { word });
-    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(words).current_dir(folder).output().unwrap();
-    let text = String::from_utf8(output.stderr).unwrap().replace(folder.to_str().unwrap(), ".");
-    if output.status.success() {
+    let words: Vec<&str> = command.split(' ').map(|word| if word == "''" { "" } else { word }).collect();
+    let (done, said) = tried(brinell(&words).current_dir(folder));
+    let text = said.err.replace(folder.to_str().unwrap(), ".");
+    if done {
         let notes = text.lines().filter(|line| line.starts_with("note: ") || line.starts_with("warning: "));
         return std::iter::once("done").chain(notes).collect::<Vec<_>>().join("\n");
     }
     let left = fs::read_dir(folder.join("out")).map_or(0, |entries| entries.count());
-    assert!(output.stdout.is_empty() && left == 0, "{command} has written something");
+    assert!(said.out.is_empty() && left == 0, "{command} has written something");
     let answer = text.split("\n\nUsage").next().unwrap();
     answer.lines().filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n")
 }
@@ -32,8 +32,7 @@ fn write_files(block: &str, folder: &Path) {
         let text = if base.is_empty() {
             body.iter().map(|line| format!("{}\n", line[1..].strip_prefix(' ').unwrap_or_default())).collect()
         } else {
-            let scene = common::root().join("scenes").join(base.trim()).with_extension("toml");
-            snapshot::changed(&fs::read_to_string(scene).unwrap(), &body.join("\n"))
+            snapshot::changed(&common::scene_text(base.trim()), &body.join("\n"))
         };
         fs::write(folder.join(name), text).unwrap();
     }

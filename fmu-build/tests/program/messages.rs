@@ -1,13 +1,11 @@
-//! What a user reads when something is wrong: the reason, once.
+//! What a user reads, and how much: the reason of what is not done, once; quiet and detailed runs; JSON of tables.
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
+use crate::common::program::{brinell, done, refused};
 use std::fs;
-use std::process::{Command, Output};
 
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments).output().unwrap()
-}
+use serde_json::Value;
 
 #[track_caller]
 fn once(said: &str, words: &str) {
@@ -18,7 +16,7 @@ fn once(said: &str, words: &str) {
 fn a_reader_that_has_gone_ends_the_program_without_a_word() {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let ended = Command::new(env!("CARGO_BIN_EXE_brinell")).arg("scenes").stdout(writer).output().unwrap();
+    let ended = brinell(&["scenes"]).stdout(writer).output().unwrap();
     assert!(!ended.status.success());
     assert_eq!(String::from_utf8(ended.stderr).unwrap(), "");
 }
@@ -28,31 +26,23 @@ fn a_reader_that_has_gone_ends_the_program_without_a_word() {
 fn a_library_that_cannot_be_loaded_is_said_once() {
     common::python();
     let folder = common::folder("no-library");
-    let (library, out) = (folder.join("no.so").display().to_string(), folder.display().to_string());
-    fs::write(&library, "no library").unwrap();
-    let scene = common::root().join("scenes/6205-healthy.toml").display().to_string();
-    assert!(program(&["build", &scene, "--library", &library, "-o", &out]).status.success());
-    let output = program(&["check", &folder.join("6205-healthy.fmu").display().to_string()]);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(!output.status.success());
+    fs::write(folder.join("no.so"), "no library").unwrap();
+    done(brinell(&["build", "6205-healthy", "--library", "no.so"]).current_dir(&folder));
+    let said = refused(brinell(&["check", "6205-healthy.fmu"]).current_dir(&folder));
     once(&said, "Failed to load shared library");
 }
 
 #[test]
 fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
     let folder = common::folder("new-scene");
-    let into = folder.display().to_string();
-    let new = ["new", "mine", "--bearing", "6206-2RS", "--defect", "inner:1.2mm", "--output", &into];
-    assert!(program(&new).status.success());
-    let scene = folder.join("mine.toml").display().to_string();
-    let run = program(&["run", &scene, "--no-figure", "--stop", "0.002", "--output", &into]);
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let again = String::from_utf8(program(&new).stderr).unwrap();
-    once(&again, "is there already and stays as it is");
+    let new = ["new", "mine", "--bearing", "6206-2RS", "--defect", "inner:1.2mm"];
+    done(brinell(&new).current_dir(&folder));
+    done(brinell(&["run", "mine.toml", "--no-figure", "--stop", "0.002"]).current_dir(&folder));
+    once(&refused(brinell(&new).current_dir(&folder)), "is there already and stays as it is");
     for (name, found) in [("NJ205", "\nNU205 "), ("6205-2RS", "\n6205 "), ("nu20", "\nNU203 ")] {
-        once(&String::from_utf8(program(&["catalogue", name]).stdout).unwrap(), found);
+        once(&done(&mut brinell(&["catalogue", name])).out, found);
     }
-    let listed = String::from_utf8(program(&["catalogue", "62"]).stdout).unwrap();
+    let listed = done(&mut brinell(&["catalogue", "62"])).out;
     once(&listed, "Case Western Reserve University's bearing data, drive end");
     let count = |word: &str| listed.lines().filter(|line| line.contains(word)).count();
     // 6200, 6201 and 6202; 6204 and 6206 to 6212.
@@ -63,17 +53,55 @@ fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
 #[test]
 fn scenes_that_are_written_have_the_schema_beside_them_that_they_name() {
     let folder = common::folder("schema-beside");
-    let into = folder.display().to_string();
     let schema = folder.join("scene.schema.json");
-    for command in [&["new", "mine"][..], &["scenes", "6205-epps"]] {
-        let output = program(&[command, &["--output", &into]].concat());
-        assert!(output.status.success());
-        once(&String::from_utf8(output.stdout).unwrap(), "scene.schema.json");
-        assert_eq!(fs::read(&schema).unwrap(), program(&["schema"]).stdout);
+    for command in [["new", "mine"], ["scenes", "6205-epps"]] {
+        once(&done(brinell(&command).arg("--output").arg(&folder)).out, "scene.schema.json");
+        assert_eq!(fs::read_to_string(&schema).unwrap(), done(&mut brinell(&["schema"])).out);
         fs::remove_file(&schema).unwrap();
     }
     // Somebody else's stays.
     fs::write(&schema, "{}").unwrap();
-    assert!(program(&["new", "other", "--output", &into]).status.success());
+    done(brinell(&["new", "other", "--output"]).arg(&folder));
     assert_eq!(fs::read_to_string(&schema).unwrap(), "{}");
+}
+
+#[test]
+fn a_quiet_run_says_nothing_but_its_files_and_a_detailed_one_its_steps() {
+    let run = ["run", "6205-healthy", "--stop", "0.01", "--no-figure"];
+    let folder = common::folder("quiet");
+    let said = |how: &str| done(brinell(&run).arg(how).current_dir(&folder));
+    let quiet = said("--quiet");
+    assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("6205-healthy.csv\n", ""));
+    let steps = said("-v").err;
+    assert!(steps.contains("integration steps and ") && steps.contains(" rejected in "), "{steps}");
+}
+
+#[test]
+fn shells_complete_every_command() {
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let out = done(&mut brinell(&["completions", shell])).out;
+        assert!(["sweep", "paper", "size"].iter().all(|command| out.contains(command)), "{shell}: {out}");
+    }
+}
+
+#[test]
+fn tables_are_json_as_well() {
+    let out = done(&mut brinell(&["catalogue", "6205", "--json"])).out;
+    let bearing: Value = serde_json::from_str::<Vec<Value>>(&out).unwrap().remove(0);
+    // Z/2 (1 − D/D_pw) times a turn, and the maker's 14.0 and 7.85 kN.
+    let order = bearing["bpfo_orders"].as_f64().unwrap();
+    assert!((order - 4.5 * (1.0 - 7.94 / 39.04)).abs() < 1e-9, "{bearing}");
+    for (rating, maker) in [("dynamic_rating_n", 14.0e3), ("static_rating_n", 7.85e3)] {
+        assert!((bearing[rating].as_f64().unwrap() / maker - 1.0).abs() < 0.02, "{bearing}");
+    }
+    let stiffness = ["stiffness", "er16k-tb2", "--json", "--no-figure", "--points", "20"];
+    let said = done(brinell(&stiffness).current_dir(common::folder("stiffness-json")));
+    let (out, found) = (&said.out, serde_json::from_str::<Value>(&said.out).unwrap());
+    // By law hertz 3598 N (docs/evidence/validation.md); the stiffest place is healthy, 58 N/µm.
+    assert!((found["critical_load_n"].as_f64().unwrap() - 3598.0).abs() < 1.0, "{out}");
+    assert!((found["stiffness_n_m"]["greatest"].as_f64().unwrap() / 58e6 - 1.0).abs() < 0.02, "{out}");
+    assert!(said.err.contains("er16k-tb2-stiffness.csv"), "{}", said.err);
+    let out = done(&mut brinell(&["scenes", "--json"])).out;
+    let scenes: Vec<Value> = serde_json::from_str(&out).unwrap();
+    assert!(scenes.iter().any(|scene| scene["name"] == "er16k-tb1"), "{out}");
 }

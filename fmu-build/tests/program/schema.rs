@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
+use crate::common::program::{brinell, done};
 use std::collections::HashMap;
+use std::fs;
 use std::path::Path;
-use std::process::Command;
-use std::{env, fs};
 
 /// Scenes that the schema refuses as [`brinell_scene_file::from_toml`] does: what is replaced in a scene, and by what.
 const BAD: [(&str, &str); 14] = [
@@ -25,10 +25,8 @@ const BAD: [(&str, &str); 14] = [
     ("name = \"6205-inner-5deg\"", "name = \"6205 inner\""),
 ];
 
-fn program(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+fn schema() -> String {
+    done(&mut brinell(&["schema"])).out
 }
 
 /// Puts a scene as JSON into a file.
@@ -42,17 +40,16 @@ fn as_json(folder: &Path, name: &str, text: &str) -> String {
 #[test]
 fn the_schema_takes_every_scene_and_refuses_wrong_keys_types_and_words() {
     let folder = common::folder("schema");
-    let schema = folder.join("scene.schema.json");
-    fs::write(&schema, program(&["schema"])).unwrap();
-    let new = ["new", "new", "--defect", "element:1mm", "--output", folder.to_str().unwrap()];
-    program(&new);
+    let file = folder.join("scene.schema.json");
+    fs::write(&file, schema()).unwrap();
+    done(brinell(&["new", "new", "--defect", "element:1mm", "--output"]).arg(&folder));
     let mut texts: Vec<(String, String)> = common::scenes()
         .iter()
         .chain([&folder.join("new.toml")])
         .map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(path).unwrap()))
         .collect();
     let good = texts.len();
-    let scene = fs::read_to_string(common::root().join("scenes/6205-inner-5deg.toml")).unwrap();
+    let scene = common::scene_text("6205-inner-5deg");
     for (k, (old, new)) in BAD.iter().enumerate() {
         assert_eq!(scene.matches(old).count(), 1, "{old}");
         let text = scene.replace(old, new);
@@ -60,7 +57,7 @@ fn the_schema_takes_every_scene_and_refuses_wrong_keys_types_and_words() {
         texts.push((format!("bad-{k}"), text));
     }
     let files: Vec<String> = texts.iter().map(|(name, text)| as_json(&folder, name, text)).collect();
-    let said = common::run_script("schema.py", [&schema.display().to_string()].into_iter().chain(&files));
+    let said = common::run_script("schema.py", [&file.display().to_string()].into_iter().chain(&files));
     let verdicts: HashMap<&str, &str> = said.lines().map(|line| line.split_once('\t').unwrap()).collect();
     for (k, file) in files.iter().enumerate() {
         let verdict = verdicts[file.as_str()];
@@ -70,12 +67,7 @@ fn the_schema_takes_every_scene_and_refuses_wrong_keys_types_and_words() {
 
 #[test]
 fn editors_find_the_schema_of_shipped_scenes() {
-    let file = common::root().join("scenes/scene.schema.json");
-    let schema = program(&["schema"]);
-    if env::var_os("BLESS").is_some_and(|value| value == "1") {
-        fs::write(&file, &schema).unwrap();
-    }
-    assert!(fs::read_to_string(&file).unwrap_or_default() == schema, "{} is an old one; bless it", file.display());
+    common::is_committed(&common::root().join("scenes/scene.schema.json"), &schema());
     for path in common::scenes() {
         assert!(fs::read_to_string(&path).unwrap().starts_with("#:schema scene.schema.json\n"), "{}", path.display());
     }
@@ -83,7 +75,7 @@ fn editors_find_the_schema_of_shipped_scenes() {
 
 #[test]
 fn the_schema_explains_every_key() {
-    let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
+    let schema: serde_json::Value = serde_json::from_str(&schema()).unwrap();
     let tables = schema["$defs"].as_object().unwrap().values().chain([&schema]);
     let mut count = 0;
     for (key, value) in tables.filter_map(|table| table["properties"].as_object()).flatten() {
@@ -173,7 +165,7 @@ fn bounds(schema: &serde_json::Value) -> Vec<(String, String, f64, bool, bool)> 
 #[test]
 fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
     brinell_scene_file::from_toml(WHOLE).unwrap();
-    let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
+    let schema: serde_json::Value = serde_json::from_str(&schema()).unwrap();
     let bounds = bounds(&schema);
     for (path, bound, value, whole, is_list) in &bounds {
         let (table, key) = path.rsplit_once('.').unwrap();
@@ -223,7 +215,7 @@ fn every_bound_of_the_schema_is_refused_just_outside_by_the_program() {
 
 #[test]
 fn every_number_of_a_scene_has_bounds_in_the_schema() {
-    let schema: serde_json::Value = serde_json::from_str(&program(&["schema"])).unwrap();
+    let schema: serde_json::Value = serde_json::from_str(&schema()).unwrap();
     let bounded = bounds(&schema);
     for (name, table) in schema["$defs"].as_object().unwrap() {
         for (key, property) in table["properties"].as_object().into_iter().flatten() {

@@ -43,10 +43,6 @@ fn fails_and_leaves(folder: &Path, files: &[&str], bytes: usize, arguments: &[&s
     assert!(said.contains("File too large") && said.contains("folder"), "the reason and what to do: {said}");
 }
 
-fn scene(name: &str) -> String {
-    common::root().join("scenes").join(name).with_extension("toml").display().to_string()
-}
-
 /// Bytes that do not get shorter by packing, in place of a library.
 fn library(folder: &Path) -> PathBuf {
     let mut state = 1u64;
@@ -67,7 +63,7 @@ fn an_fmu_that_does_not_fit_leaves_the_earlier_one() {
     let out = folder.join("out");
     fs::create_dir(&out).unwrap();
     let (library, out_name) = (library(&folder).display().to_string(), out.display().to_string());
-    let arguments = ["build", &scene("6205-healthy"), "--library", &library, "-o", &out_name];
+    let arguments = ["build", "6205-healthy", "--library", &library, "-o", &out_name];
     fails_and_leaves(&out, &["6205-healthy.fmu"], 1 << 19, &arguments);
     // Where there is room, the same command gives the whole of it.
     assert!(limited(1 << 22, &arguments).status.success());
@@ -79,7 +75,7 @@ fn an_fmu_that_does_not_fit_leaves_the_earlier_one() {
 fn signals_that_do_not_fit_leave_the_earlier_ones() {
     let out = common::folder("whole-run");
     let name = out.display().to_string();
-    let arguments = ["run", &scene("6205-healthy"), "--stop", "0.02", "--step", "1e-4", "--no-figure", "-o", &name];
+    let arguments = ["run", "6205-healthy", "--stop", "0.02", "--step", "1e-4", "--no-figure", "-o", &name];
     fails_and_leaves(&out, &["6205-healthy.csv"], 1 << 15, &arguments);
     let output = limited(1 << 24, &arguments);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -92,7 +88,7 @@ fn a_recording_that_does_not_fit_leaves_the_earlier_one() {
     let folder = common::folder("whole-recording");
     let (out, file) = (folder.join("out"), folder.join("recorded.toml"));
     fs::create_dir(&out).unwrap();
-    let text = fs::read_to_string(scene("6205-healthy")).unwrap().replace("6205-healthy", "recorded");
+    let text = common::scene_text("6205-healthy").replace("6205-healthy", "recorded");
     fs::write(&file, format!("{text}\n[recorder]\nrate_hz = 51200.0\n")).unwrap();
     let (name, file) = (out.display().to_string(), file.display().to_string());
     let arguments = ["run", &file, "--stop", "0.1", "--step", "0.01", "--no-figure", "-o", &name];
@@ -107,16 +103,16 @@ fn a_recording_that_does_not_fit_leaves_the_earlier_one() {
 fn a_table_of_stiffness_that_does_not_fit_leaves_the_earlier_one() {
     let out = common::folder("whole-stiffness");
     let name = out.display().to_string();
-    let arguments = ["stiffness", &scene("6205-healthy"), "--no-figure", "-o", &name];
+    let arguments = ["stiffness", "6205-healthy", "--no-figure", "-o", &name];
     fails_and_leaves(&out, &["6205-healthy-stiffness.csv"], 1 << 14, &arguments);
 }
 
 #[test]
 fn a_pressure_that_does_not_fit_leaves_the_earlier_one() {
     let out = common::folder("whole-contact");
-    let (scene, name) = (scene("6205-healthy"), out.display().to_string());
+    let name = out.display().to_string();
     let at = ["--on", "outer", "--angle", "0", "--force", "100", "--resolution", "32"];
-    let arguments = [&["contact", &scene], &at[..], &["--no-figure", "-o", &name]].concat();
+    let arguments = [&["contact", "6205-healthy"], &at[..], &["--no-figure", "-o", &name]].concat();
     fails_and_leaves(&out, &["6205-healthy-contact.json"], 512, &arguments);
     fs::remove_file(out.join("6205-healthy-contact.json")).unwrap();
     let output = limited(1 << 16, &arguments);
@@ -132,7 +128,7 @@ fn a_figure_that_does_not_fit_leaves_the_earlier_one() {
     common::python();
     let out = common::folder("whole-figure");
     let name = out.display().to_string();
-    let arguments = ["run", &scene("6205-healthy"), "--stop", "0.01", "--step", "1e-3", "-o", &name];
+    let arguments = ["run", "6205-healthy", "--stop", "0.01", "--step", "1e-3", "-o", &name];
     for file in ["6205-healthy.svg", "6205-healthy.png"] {
         fs::write(out.join(file), BEFORE).unwrap();
     }

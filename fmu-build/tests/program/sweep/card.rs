@@ -33,10 +33,7 @@ fn a_card_says_what_the_table_holds_and_how_it_was_made() {
     let load = columns.iter().find(|cells| cells[0] == "`shaft.load_n`").unwrap();
     assert_eq!(load[1..], ["N", "input: load along that of the scene"]);
     // Counts as the table has them.
-    let text = |name: &str| -> Vec<String> {
-        column(&out, name).iter().map(|field| field.to_string().trim_matches('"').to_owned()).collect()
-    };
-    let (types, errors, splits) = (text("fault_type"), text("error"), text("split"));
+    let [types, errors, splits] = ["fault_type", "error", "split"].map(|name| words(&out, name));
     for cells in listed(&card, "Runs of each class") {
         let is_of = |run: &usize| types[*run] == cells[0];
         let count = |is: &dyn Fn(usize) -> bool| (0..24).filter(is_of).filter(|run| is(*run)).count().to_string();
@@ -55,17 +52,13 @@ fn runs_of_one_length_are_in_one_part_of_the_data_set() {
     let text = QUICK.replace("seed = 3", "seed = 3\nsplit = [0.5, 0.25, 0.25]\nsplit_by = [\"defect.length_mm\"]");
     let (path, out) = (file(&folder, &text.replace("[1, 2]", "[0.8, 1.2, 1.6, 2]")), folder.join("out"));
     sweep(&path, &out, &[]);
-    let mut pairs: Vec<(String, String)> = column(&out, "defect.length_mm")
-        .iter()
-        .zip(column(&out, "split"))
-        .map(|(length, part)| (length.to_string(), part.to_string()))
-        // Healthy runs have none.
-        .filter(|(length, _)| length != "null")
-        .collect();
+    let pairs = words(&out, "defect.length_mm").into_iter().zip(words(&out, "split"));
+    // Healthy runs have none.
+    let mut pairs: Vec<_> = pairs.filter(|(length, _)| length != "null").collect();
     pairs.sort();
     pairs.dedup();
     assert_eq!(pairs.len(), 4, "a length in two parts: {pairs:?}");
-    let count = |part: &str| pairs.iter().filter(|(_, of)| of.trim_matches('"') == part).count();
+    let count = |part: &str| pairs.iter().filter(|(_, of)| of == part).count();
     assert_eq!(["train", "validation", "test"].map(count), [2, 1, 1]);
 }
 

@@ -27,7 +27,7 @@ fn interrupted(mut command: Command, rows: impl Fn() -> bool) -> (String, Option
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
-    (said(&output), output.status.code())
+    (String::from_utf8(output.stderr).unwrap(), output.status.code())
 }
 
 #[cfg(unix)]
@@ -60,8 +60,8 @@ fn a_sweep_that_is_interrupted_leaves_the_table_of_what_is_done_and_nothing_unde
 #[test]
 fn a_run_that_is_interrupted_leaves_the_table_of_what_was_simulated_and_nothing_temporary() {
     let folder = common::folder("run-interrupted");
-    let mut run = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    run.args(["run", "6205-healthy", "--stop", "1000", "--no-figure", "-o"]).arg(&folder);
+    let mut run = brinell(&["run", "6205-healthy", "--stop", "1000", "--no-figure", "-o"]);
+    run.arg(&folder);
     let (told, status) = interrupted(run, || !names(&folder).is_empty());
     assert_eq!((status, names(&folder)), (Some(130), vec!["6205-healthy.csv".to_owned()]), "{told}");
     // Communication points are 0.1 ms apart.

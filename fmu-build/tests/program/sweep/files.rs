@@ -77,7 +77,7 @@ fn the_table_has_its_units_its_origin_and_nothing_of_the_machine_inside() {
         assert_eq!(of(&format!("unit:{column}")), Some(unit), "{column}");
     }
     assert_eq!(of("unit:kind"), None, "words have no unit");
-    let scene = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();
+    let scene = common::scene_text("er16k-tb1");
     assert_eq!(of("brinell.sweep"), Some(text.as_str()));
     assert_eq!(of("brinell.scene"), Some(scene.as_str()));
     assert_eq!(of("brinell.version"), Some(env!("CARGO_PKG_VERSION")));

@@ -1,9 +1,8 @@
 //! Labels in the words of public collections, and a floor of noise.
 
-use super::{QUICK, column, file, program, sweep};
+use super::{QUICK, all, column, file, scene_of, sweep, words};
 use crate::common;
 use parquet::record::Field;
-use std::fs;
 
 #[test]
 fn runs_are_labelled_in_the_words_of_public_collections_and_the_healthy_are_not_silent() {
@@ -14,20 +13,13 @@ fn runs_are_labelled_in_the_words_of_public_collections_and_the_healthy_are_not_
         .replace("noise_db = [0, 30]", "noise_rms_m_s2 = 0.25\nnoise_color = \"pink\"");
     let (path, out) = (file(&folder, &text), folder.join("out"));
     sweep(&path, &out, &[]);
-    let number = |name: &str| -> Vec<f64> {
-        let of = |field: &Field| if let Field::Double(x) = field { *x } else { panic!("{name}: {field:?}") };
-        column(&out, name).iter().map(of).collect()
-    };
-    let text = |name: &str| -> Vec<String> {
-        let of = |field: &Field| if let Field::Str(x) = field { x.clone() } else { panic!("{name}: {field:?}") };
-        column(&out, name).iter().map(of).collect()
-    };
+    let number = |name: &str| all(&out, name);
+    let text = |name: &str| words(&out, name);
     assert_eq!(text("fault_type")[..4], ["normal", "outer", "inner", "rolling_element"]);
     assert_eq!(text("fault_location")[..2], ["none", "test_bearing"]);
     assert_eq!(number("fault_size_mm"), [0.0, 1.0, 1.0, 1.0, 0.0, 2.0, 2.0, 2.0]);
     // From the bearing's dimensions, without slip.
-    let scene = fs::read_to_string(common::root().join("scenes/er16k-tb1.toml")).unwrap();
-    let bearing = brinell_scene_file::from_toml(&scene).unwrap().bearing;
+    let bearing = brinell_scene_file::from_toml(&common::scene_text("er16k-tb1")).unwrap().bearing;
     let (count, ratio) = (bearing.element_count as f64, bearing.element_diameter / bearing.pitch_diameter);
     let orders = [
         ("bpfo", 0.5 * count * (1.0 - ratio)),
@@ -61,9 +53,8 @@ fn a_growing_spall_has_its_bearing_and_how_far_it_has_come_beside_it_and_an_axia
     assert_eq!(column(&out, "label_growth"), [Field::Double(0.0), Field::Double(1.0), Field::Null, Field::Null]);
     let loads = column(&out, "shaft.load_n");
     assert!(loads[0] == loads[1] && loads[1] != loads[2] && loads[2] == loads[3], "{loads:?}");
-    let scene = program(&path, &out, &["--scene-of", "0"]).output().unwrap();
-    let scene = brinell_scene_file::from_toml(&String::from_utf8(scene.stdout).unwrap()).unwrap();
-    let shipped = fs::read_to_string(common::root().join("scenes/6205-combined.toml")).unwrap();
+    let scene = brinell_scene_file::from_toml(&scene_of(&path, &out, "0")).unwrap();
+    let shipped = common::scene_text("6205-combined");
     assert_eq!(scene.shaft.axial.load, brinell_scene_file::from_toml(&shipped).unwrap().shaft.axial.load);
     assert_ne!(scene.shaft.axial.load, 0.0);
 }

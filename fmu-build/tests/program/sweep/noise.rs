@@ -18,11 +18,8 @@ fn runs_of_every_class_have_the_power_of_the_table_in_physical_units() {
     let (noisy, clean) = (folder.join("noisy"), folder.join("clean"));
     sweep(&path, &noisy, &[]);
     sweep(&file(&folder, &QUICK.replace("noise_db = [0, 30]\n", "")), &clean, &[]);
-    let squares = |out: &Path| -> Vec<f64> {
-        let square = |field: &Field| if let Field::Double(rms) = field { rms * rms } else { panic!("{field:?}") };
-        column(out, "rms_m_s2").iter().map(square).collect()
-    };
-    let (noisy, clean) = (squares(&noisy), squares(&clean));
+    let [noisy, clean] =
+        [noisy, clean].map(|out| all(&out, "rms_m_s2").iter().map(|rms| rms * rms).collect::<Vec<_>>());
     for class in 0..3 {
         let runs = || noisy.iter().zip(&clean).skip(class).step_by(3);
         let power = runs().map(|(noisy, clean)| noisy - clean).sum::<f64>() / 8.0;

@@ -43,12 +43,8 @@ fn random_bearings_with_turning_rings_are_passed_and_loaded_as_the_oracle_says()
         if !told.contains(" 0 failed") {
             return Err(told);
         }
-        let numbers = |name: &str| -> Vec<f64> {
-            let number = |field| if let Field::Double(number) = field { number } else { f64::NAN };
-            column(&out, name).into_iter().map(number).collect()
-        };
         let names = ["shaft.speed_hz", "housing.speed_hz", "cage.slip", "bpfo_hz", "label_load_n"];
-        let [shaft, housing, slip, bpfo, load] = names.map(numbers);
+        let [shaft, housing, slip, bpfo, load] = names.map(|name| all(&out, name));
         for i in 0..runs {
             let turning = Case { speed_hz: shaft[i], housing_hz: Some(housing[i]), slip: slip[i], ..case.clone() };
             let [expected, ..] = Bearing::smooth(&turning).frequencies();

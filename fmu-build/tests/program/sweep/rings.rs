@@ -1,6 +1,7 @@
 //! Passage frequencies and loads of bearings whose outer ring turns, or whose shaft others hold.
 
 use super::*;
+use crate::common::program::Table;
 
 /// A 6205 of law `hertz` with a spall of the outer ring, 30 ms.
 fn turning(folder: &Path, shaft: f64, housing: f64, more: &str) -> PathBuf {
@@ -12,12 +13,10 @@ fn turning(folder: &Path, shaft: f64, housing: f64, more: &str) -> PathBuf {
     file(folder, &text)
 }
 
+/// What the one run has in a column.
 fn number(out: &Path, name: &str) -> Option<f64> {
-    match column(out, name)[..] {
-        [Field::Double(number)] => Some(number),
-        [Field::Null] => None,
-        ref other => panic!("{name}: {other:?}"),
-    }
+    let [number] = numbers(out, name)[..] else { panic!("{name} of several runs") };
+    number
 }
 
 #[test]
@@ -71,13 +70,10 @@ fn the_load_of_a_run_is_what_the_bearing_carries() {
     let found = load("held", held);
     assert!(found > 30.0 && found < 290.0, "{found}");
     // That is its force on the shaft at the start.
-    let scene = program(&folder.join("sweep.toml"), &folder.join("none"), &["--scene-of", "0"]).output().unwrap();
-    fs::write(folder.join("held.toml"), scene.stdout).unwrap();
-    let mut run = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    run.arg("run").arg(folder.join("held.toml")).args(["--stop", "1e-4", "--step", "1e-4", "--no-figure"]);
-    let output = run.args(["--columns", "shaft.force.*", "-o"]).arg(&folder).output().unwrap();
-    assert!(output.status.success(), "{}", said(&output));
-    let table = fs::read_to_string(folder.join("run-0000000.csv")).unwrap();
-    let forces: Vec<f64> = table.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
-    assert_eq!(found, forces[1].hypot(forces[2]));
+    let scene = scene_of(&folder.join("sweep.toml"), &folder.join("none"), "0");
+    fs::write(folder.join("held.toml"), scene).unwrap();
+    let run = ["run", "held.toml", "--stop", "1e-4", "--step", "1e-4", "--no-figure", "--columns", "shaft.force.*"];
+    done(brinell(&run).current_dir(&folder));
+    let forces = Table::read(&folder.join("run-0000000.csv"));
+    assert_eq!(found, forces.column("shaft.force.x")[0].hypot(forces.column("shaft.force.y")[0]));
 }

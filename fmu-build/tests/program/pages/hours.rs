@@ -12,26 +12,14 @@
 use crate::common;
 use std::path::Path;
 use std::process::Command;
-use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use std::{env, fs};
-
-use fmu_build::shared::{Project, Python};
 
 const PAGES: [&str; 4] = ["catalogue.md", "recording.md", "data-set.md", "rotor.md"];
 const COUNTED: &str = "*Typed: ";
 /// What is written of a long sweep where the page is only compared.
 const FEWER: [&str; 2] = ["runs = 400\n", "runs = 80\n"];
 const WHERE: &str = "on two cores that others used as well.*";
-
-/// The environment of the examples: it has ROSS, dask and what reads their results.
-fn python() -> &'static Python {
-    static PYTHON: OnceLock<Python> = OnceLock::new();
-    PYTHON.get_or_init(|| {
-        let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
-        Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap()
-    })
-}
 
 /// A folder of a user's, with the repository's examples in it.
 fn user(page: &str) -> std::path::PathBuf {
@@ -46,7 +34,7 @@ fn user(page: &str) -> std::path::PathBuf {
 pub(super) fn typed(command: &str, folder: &Path) -> std::process::Output {
     let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
     // A page that runs no example needs not their half gigabyte.
-    let python = if command.contains("python") { python() } else { common::python() };
+    let python = if command.contains("python") { common::examples_python() } else { common::python() };
     let folders = [program.parent().unwrap(), python.interpreter().parent().unwrap()].map(Path::to_path_buf);
     let path = env::join_paths(folders.into_iter().chain(env::split_paths(&env::var_os("PATH").unwrap()))).unwrap();
     let modules = [common::root().join("examples"), Path::new(env!("CARGO_MANIFEST_DIR")).join("module")];
@@ -187,7 +175,7 @@ fn an_hour_with_a_recording_is_what_happens() {
 #[test]
 #[ignore = "runs eighty signals; the examples' tests have a labelled sweep as well"]
 fn an_hour_with_a_data_set_is_what_happens() {
-    if has_ross() {
+    if common::has_ross() {
         let page = is_what_happens("data-set.md");
         assert!(page.contains("80 runs, 80 of them made now, 0 failed"), "{page}");
         // What guesses is right of one run in four, of 80 within 5 % of that; this is three times as far off.
@@ -199,16 +187,9 @@ fn an_hour_with_a_data_set_is_what_happens() {
 #[test]
 #[ignore = "needs the environment of the examples, half a gigabyte"]
 fn an_hour_with_a_rotor_is_what_happens() {
-    if has_ross() {
+    if common::has_ross() {
         is_what_happens("rotor.md");
     }
-}
-
-/// Neither ROSS nor the learners that come along with it run on Python 3.9.
-fn has_ross() -> bool {
-    let script = common::folder("hours-version").join("version.py");
-    fs::write(&script, "import sys\nprint(sys.version_info >= (3, 10))").unwrap();
-    python().run_file(&script, [""; 0]).unwrap().trim() == "True"
 }
 
 /// All, or the one that the environment's `BRINELL_PAGE` names.

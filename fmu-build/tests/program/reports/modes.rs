@@ -5,22 +5,20 @@ use crate::common;
 use std::fs;
 use std::path::PathBuf;
 
-use fmu_build::commands::{Options, modes};
-use fmu_build::shared::Project;
+use crate::common::program::{brinell, done};
 use serde_json::Value;
 
 /// The folder of a scene's modes, and the report in it.
-fn made(scene: &str, folder: &str, options: Options) -> (PathBuf, Value) {
+fn made(scene: &str, folder: &str, more: &[&str]) -> (PathBuf, Value) {
     let folder = common::folder(folder);
-    modes::command(&Project::find(), &common::model(scene), options, &folder).unwrap();
+    done(brinell(&["modes", scene, "-o"]).arg(&folder).args(more));
     let text = fs::read_to_string(folder.join(format!("{scene}-modes.json"))).unwrap();
     (folder, serde_json::from_str(&text).unwrap())
 }
 
 #[test]
 fn an_assembly_with_a_spall_gives_lines_modes_and_a_figure() {
-    let options = Options { load: None, points: Some(20), figure: true, json: false };
-    let (folder, report) = made("er16k-tb2", "modes-tb2", options);
+    let (folder, report) = made("er16k-tb2", "modes-tb2", &["--points", "20"]);
     let freedoms = report["freedoms"].as_array().unwrap().len();
     assert_eq!(freedoms, 9 + 2 + 2 + 1);
     let angles = report["angles"].as_array().unwrap();
@@ -51,11 +49,10 @@ fn an_assembly_with_a_spall_gives_lines_modes_and_a_figure() {
 
 #[test]
 fn rings_that_a_host_moves_hold_still_where_they_carry_the_load() {
-    let options = Options { load: Some(800.0), points: Some(4), figure: false, json: false };
-    let (_, report) = made("6205-hosted", "modes-hosted", options);
+    let under = |load: &str| made("6205-hosted", "modes-hosted", &["--load", load, "--points", "4", "--no-figure"]).1;
+    let (report, more) = (under("800"), under("1600"));
     assert_eq!(report["freedoms"].as_array().unwrap().len(), 9);
     assert_eq!(report["shaft_load_n"][1], -800.0);
-    let (_, more) = made("6205-hosted", "modes-hosted-more", Options { load: Some(1600.0), ..options });
     let fastest = |report: &Value| {
         let lines = report["lines"].as_array().unwrap();
         lines.iter().map(|line| line["undamped_frequency_hz"][1].as_f64().unwrap()).fold(0.0, f64::max)

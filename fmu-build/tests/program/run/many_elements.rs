@@ -4,7 +4,9 @@
 
 use crate::common;
 use std::fs;
-use std::process::Command;
+
+use super::run;
+use crate::common::program::{brinell, refused};
 
 /// Both NumPy files by default arguments, against the table of another run.
 const CHECK: &str = r#"
@@ -35,30 +37,22 @@ fn numpy_loads_tables_and_recordings_of_many_elements_and_figure_and_page_are_dr
     let count = 120;
     let folder = common::folder("many-elements");
     let scene = folder.join("many.toml");
-    let mut text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
+    let mut text = common::scene_text("6205-healthy");
     for (key, value) in [("name", "\"many\""), ("element_count", &*count.to_string()), ("pitch_diameter_mm", "400.0")] {
         let line = text.lines().find(|line| line.starts_with(key)).unwrap().to_owned();
         text = text.replace(&line, &format!("{key} = {value}"));
     }
     fs::write(&scene, text + "\n[recorder]\nrate_hz = 25600.0\n").unwrap();
-    let run = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-        command.arg("run").arg(&scene).args(["--stop", "4e-3", "--step", "1e-3", "-o"]).arg(&folder).args(more);
-        let output = command.output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    };
+    let run = |more: &[&str]| run(&scene, &folder, &[&["--stop", "4e-3", "--step", "1e-3"], more].concat());
     run(&["--no-figure"]);
     run(&["--format", "npy", "--html"]);
-    let script = folder.join("check.py");
-    fs::write(&script, CHECK).unwrap();
-    let said = common::python().run_file(&script, [folder.display().to_string(), count.to_string()]);
-    assert_eq!(said.unwrap_or_else(|error| panic!("{error:#}")).trim(), "as documented");
+    let said = common::run_text(common::python(), &folder, CHECK, [folder.display().to_string(), count.to_string()]);
+    assert_eq!(said.trim(), "as documented");
     for drawn in ["many.png", "many.html"] {
         assert!(fs::metadata(folder.join(drawn)).unwrap().len() > 10_000, "{drawn}");
     }
     // `size` reads the recording, and names its columns.
-    let mut size = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    size.args(["size", "--scene"]).arg(&scene).args(["--speed", "25", "--column", "none", "--no-figure"]);
-    let said = String::from_utf8(size.arg(folder.join("many.npy")).output().unwrap().stderr).unwrap();
+    let mut size = brinell(&["size", "--speed", "25", "--column", "none", "--no-figure", "--scene"]);
+    let said = refused(size.arg(&scene).arg(folder.join("many.npy")));
     assert!(said.contains("among 371 columns") && said.contains("element[1].path, element[2].path"), "{said}");
 }

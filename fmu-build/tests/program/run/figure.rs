@@ -4,29 +4,15 @@
 use crate::common;
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::Command;
 
+use super::run;
 use serde_json::Value;
-
-fn run(scene: &str, out: &std::path::Path, more: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .arg("run")
-        .arg(common::root().join("scenes").join(format!("{scene}.toml")))
-        .arg("-o")
-        .arg(out)
-        .args(more)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{said}");
-    said
-}
 
 #[test]
 fn a_run_of_eight_passages_shows_the_envelopes_spectrum_with_the_bearings_frequencies() {
     common::python();
     let out = common::folder("run-figure");
-    let said = run("6205-healthy", &out, &["--stop", "0.1"]);
+    let said = run("6205-healthy", &out, &["--stop", "0.1"]).err;
     assert!(!said.contains("note: no spectrum"), "{said}");
     let file = |name: &str| fs::read_to_string(out.join(name)).unwrap();
     let marks: Value = serde_json::from_str(&file("6205-healthy-envelope.json")).unwrap();
@@ -47,7 +33,6 @@ fn a_run_of_eight_passages_shows_the_envelopes_spectrum_with_the_bearings_freque
 fn a_figure_says_its_recorders_bands_and_that_a_run_ups_frequencies_are_at_the_mean_speed() {
     common::python();
     let out = common::folder("run-figure-up");
-    fs::create_dir_all(&out).unwrap();
     let profile = out.join("up.csv");
     fs::write(&profile, "time_s,speed_hz\n0,10\n0.1,20\n0.3,20\n").unwrap();
     // 15 360 samples of the recorder are bands; 3001 communication points are lines.
@@ -63,15 +48,11 @@ fn every_file_that_a_run_writes_is_said_and_no_other() {
     common::python();
     let folder = common::folder("run-files");
     let scene = folder.join("recorded.toml");
-    let text = fs::read_to_string(common::root().join("scenes/6205-healthy.toml")).unwrap();
-    fs::write(&scene, format!("{text}\n[recorder]\nrate_hz = 25600.0\n")).unwrap();
+    fs::write(&scene, common::scene_text("6205-healthy") + "\n[recorder]\nrate_hz = 25600.0\n").unwrap();
     let every = ["--stop", "0.1", "--html", "--wav"];
     for (name, more) in [("all", &every[..]), ("figure", &every[..2]), ("table", &["--stop", "0.1", "--no-figure"])] {
         let out = folder.join(name);
-        let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
-        let output = program.arg("run").arg(&scene).arg("-o").arg(&out).args(more).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let said: Vec<String> = String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
+        let said: Vec<String> = run(&scene, &out, more).out.lines().map(str::to_owned).collect();
         let there: BTreeSet<String> =
             fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().path().display().to_string()).collect();
         assert_eq!(said.len(), there.len(), "{name}: {said:?}, {there:?}");
@@ -83,7 +64,7 @@ fn every_file_that_a_run_writes_is_said_and_no_other() {
 fn a_run_too_short_for_it_says_how_long_it_would_have_to_be() {
     common::python();
     let out = common::folder("run-figure-short");
-    let said = run("6205-healthy", &out, &["--stop", "0.01"]);
+    let said = run("6205-healthy", &out, &["--stop", "0.01"]).err;
     assert!(said.contains("--stop 0.09 is enough"), "{said}");
     assert!(!out.join("6205-healthy-envelope.csv").exists());
     assert!(out.join("6205-healthy.png").is_file());
@@ -91,9 +72,7 @@ fn a_run_too_short_for_it_says_how_long_it_would_have_to_be() {
 
 #[test]
 fn bands_of_a_long_run_reach_to_its_ends_and_hold_every_extreme() {
-    let script = common::folder("run-figure-bands").join("bands.py");
-    fs::write(&script, BANDS).unwrap();
-    let said = common::python().run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = common::run_text(common::python(), &common::folder("run-figure-bands"), BANDS, [""; 0]);
     assert!(said.contains("held"), "{said}");
 }
 

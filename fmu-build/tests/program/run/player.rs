@@ -13,7 +13,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::run_page::{FLAGS, browser, page};
+use super::page::{FLAGS, browser, page};
 
 /// A page in a browser of its own.
 struct Tab {
@@ -142,10 +142,7 @@ const SOUND: &str = "new Promise((done) => setTimeout(done, 200)).then(() => sou
 
 #[test]
 fn play_moves_the_bearing_and_pause_holds_it_and_sound_is_the_sensors_signal() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let mut tab = Tab::open(&browser, &page("page-played", "6205-spall-5deg", &["--stop", "0.3"]));
     tab.said(WATCH);
     let before = tab.said(STATE);
@@ -194,10 +191,7 @@ const ENLARGED: &str = "(() => {
 
 #[test]
 fn where_no_ball_is_at_the_defect_the_page_says_how_far_the_nearest_is() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let mut tab = Tab::open(&browser, &page("page-enlarged", "6205-spall-5deg", &["--stop", "0.1"]));
     let said = tab.said(ENLARGED);
     let said: Vec<&str> = said.as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
@@ -212,10 +206,7 @@ fn where_no_ball_is_at_the_defect_the_page_says_how_far_the_nearest_is() {
 
 #[test]
 fn sound_of_a_run_whose_sensor_stays_as_it_is_says_so() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let mut tab = Tab::open(&browser, &page("page-silent", "6205-hosted", &["--stop", "0.02"]));
     tab.said(WATCH);
     let button = tab.said("document.getElementById('motion-sound').textContent");

@@ -16,12 +16,12 @@ use std::sync::Mutex;
 use clap::Parser;
 use fmu_build::cli::Arguments;
 
+use super::hours::typed;
 use crate::common;
-use crate::hours::typed;
 
 /// How a command begins, and the test that types it, as `file: name`; or why none does.
 const ELSEWHERE: [(&str, &str); 12] = [
-    ("cargo fmu demo", "tests/program/commands.rs: the_demo_is_what_the_readme_shows"),
+    ("cargo fmu demo", "tests/program/pages/commands.rs: the_demo_is_what_the_readme_shows"),
     ("cargo fmu build scenes/6205-epps.toml --platforms all", "tests/platforms.rs: all_platforms"),
     ("cargo fmu site", "../laboratory/src/site.rs: every_page_is_in_the_contents_once_and_links_lead_somewhere"),
     ("cargo test --workspace", "is this"),
@@ -31,7 +31,7 @@ const ELSEWHERE: [(&str, &str); 12] = [
     (". target/examples-env", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     ("pip install -r examples", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     (".ci/platforms", "tests/platforms.rs: all_platforms"),
-    ("sbatch ", "tests/program/sweep.rs: parts_of_a_sweep_made_anywhere_join_to_the_bits_of_one_run"),
+    ("sbatch ", "tests/program/sweep/mod.rs: parts_of_a_sweep_made_anywhere_join_to_the_bits_of_one_run"),
     ("valgrind ", "needs Valgrind"),
 ];
 /// What the pages' text says that a user has: a sweep, a speed, a recording.
@@ -65,9 +65,7 @@ fn prepare(page: &str, folder: &Path) {
         let script = "import os, sys\nimport numpy as np\nfrom scipy.io import savemat, wavfile\n\
                       os.chdir(sys.argv[1])\nrate, x = wavfile.read('recording.wav')\nnp.save('recording.npy', x)\n\
                       savemat('recording.mat', {'X130_DE_time': x})\n";
-        fs::write(folder.join("made.py"), script).unwrap();
-        common::python().run_file(&folder.join("made.py"), [folder]).unwrap_or_else(|error| panic!("{error:#}"));
-        fs::remove_file(folder.join("made.py")).unwrap();
+        common::run_text(common::python(), &common::folder("recordings-made"), script, [folder]);
     }
 }
 

@@ -3,28 +3,16 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common;
-use std::collections::BTreeMap;
+use crate::common::program::{Table, brinell, done};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn contact(scene: &str, on: &str, angle: &str, force: &str, folder: &Path, more: &[&str]) -> Output {
-    let scene = common::root().join("scenes").join(scene).with_extension("toml").display().to_string();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    command.args(["contact", &scene, "--on", on, "--angle", angle, "--force", force, "-o"]).arg(folder).args(more);
-    command.output().unwrap()
-}
-
-/// Columns of a file by their names with units.
-fn columns(path: &Path) -> BTreeMap<String, Vec<f64>> {
-    let text = fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
-    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
-    names.iter().enumerate().map(|(k, name)| ((*name).to_owned(), column(k))).collect()
+/// What the program prints about a contact in the scene er16k-tb1.
+fn contact(on: &str, angle: &str, force: &str, folder: &Path, more: &[&str]) -> Value {
+    let mut contact = brinell(&["contact", "er16k-tb1", "--on", on, "--angle", angle, "--force", force, "-o"]);
+    serde_json::from_str(&done(contact.arg(folder).args(more)).out).unwrap()
 }
 
 fn number(value: &Value) -> f64 {
@@ -39,54 +27,50 @@ fn largest(values: &[f64]) -> f64 {
 fn a_ball_at_the_edge_of_a_spall_gives_a_summary_tables_and_a_figure() {
     common::python();
     let folder = common::folder("contact-edge");
-    let output = contact("er16k-tb1", "outer", "7.85", "300", &folder, &["--resolution", "64"]);
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = contact("outer", "7.85", "300", &folder, &["--resolution", "64"]);
     let stem = |end: &str| folder.join(format!("er16k-tb1-contact{end}"));
     assert_eq!(report, serde_json::from_str::<Value>(&fs::read_to_string(stem(".json")).unwrap()).unwrap());
 
     // What is written adds up to the force that was asked for.
-    let pressure = columns(&stem("-pressure.csv"));
+    let [pressure, x] = ["pressure [Pa]", "x [m]"].map(|head| Table::read(&stem("-pressure.csv")).column(head));
     let cell: f64 = (0..2).map(|k| 1e-6 * number(&report["cell_um"][k])).product();
-    let force = cell * pressure["pressure [Pa]"].iter().sum::<f64>();
+    let force = cell * pressure.iter().sum::<f64>();
     assert!((force / 300.0 - 1.0).abs() < 1e-5, "{force}");
     let found = &report["found"];
-    let most = largest(&pressure["pressure [Pa]"]);
+    let most = largest(&pressure);
     assert!((1e-6 * most / number(&found["max_pressure_mpa"]) - 1.0).abs() < 1e-9);
-    assert!((pressure["x [m]"].len() as f64 * cell * 1e6 / number(&found["area_mm2"]) - 1.0).abs() < 1e-9);
+    assert!((x.len() as f64 * cell * 1e6 / number(&found["area_mm2"]) - 1.0).abs() < 1e-9);
 
     // The edge lies 15.8/2 − 7.85 degrees from the ball; beyond it, where the spall is, nothing presses.
     let edge = number(&report["edges_mm"][1]);
-    let depth = columns(&stem("-surface.csv"));
+    let surface = Table::read(&stem("-surface.csv"));
     let width = 1e-3 * number(&report["cell_um"][0]);
-    assert!(pressure["x [m]"].iter().all(|x| 1e3 * x > edge - width), "{edge}");
-    for (x, depth) in depth["x [m]"].iter().zip(&depth["depth [m]"]) {
+    assert!(x.iter().all(|x| 1e3 * x > edge - width), "{edge}");
+    for (x, depth) in surface.column("x [m]").iter().zip(surface.column("depth [m]")) {
         let wanted = if 1e3 * x < edge { 100e-6 } else { 0.0 };
         assert!((1e3 * x - edge).abs() < width || (depth - wanted).abs() < 1e-12, "{x}: {depth}");
     }
 
-    let line = columns(&stem("-depth.csv"));
+    let line = Table::read(&stem("-depth.csv"));
     let stress = |key: &str| 1e6 * number(&report["stress"][key]["von_mises_mpa"]);
     // A parabola through the highest three points is above each of them, and neither is at an end.
     for (column, key) in [("stress.von_mises [Pa]", "below_middle"), ("hertz.von_mises [Pa]", "hertz")] {
-        let highest = largest(&line[column]);
+        let highest = largest(&line.column(column));
         assert!((1e-15..1e-3).contains(&(stress(key) / highest - 1.0)), "{key}: {highest}");
     }
-    let plane = columns(&stem("-plane.csv"));
-    assert!((largest(&plane["stress.von_mises [Pa]"]) / stress("in_planes") - 1.0).abs() < 1e-9);
+    let plane = Table::read(&stem("-plane.csv"));
+    assert!((largest(&plane.column("stress.von_mises [Pa]")) / stress("in_planes") - 1.0).abs() < 1e-9);
     let notes = report["notes"].to_string();
     assert!(notes.contains("ISO 76") && notes.contains("an edge is at the contact"), "{notes}");
     for end in [".svg", ".png"] {
-        assert!(stem(end).metadata().unwrap().len() > 10_000, "{said}");
+        assert!(stem(end).metadata().unwrap().len() > 10_000, "{end}");
     }
 }
 
 #[test]
 fn on_a_smooth_raceway_the_summary_is_hertzs() {
     let folder = common::folder("contact-smooth");
-    let output = contact("er16k-tb1", "inner", "0", "20", &folder, &["--no-figure", "--resolution", "128"]);
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = contact("inner", "0", "20", &folder, &["--no-figure", "--resolution", "128"]);
     assert!(report["notes"].to_string().contains("has no defect"), "{report}");
     // Circles for paraboloids are some thousandths of pressure and approach under 20 N, the grid a few 1e-4.
     for key in ["approach_um", "max_pressure_mpa"] {

@@ -35,36 +35,30 @@ fn text(lines: &Value) -> String {
     lines.as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect()
 }
 
-/// This build's program and library.
-fn that_builds(python: Python) -> Python {
-    let program = env!("CARGO_BIN_EXE_brinell");
-    let python = python.with_variable("BRINELL_PROGRAM", program).with_variable("BRINELL_FMU", program);
-    match common::built_with_the_tests() {
-        Some(library) => python.with_variable("BRINELL_LIBRARY", library),
-        None => python,
-    }
+/// Runs code in a folder of its own, where it finds the module and the examples, and gives what it prints.
+fn run(python: &Python, name: &str, code: &str) -> String {
+    let (folder, root) = (common::folder(name), common::root());
+    let begin = format!(
+        "import os, sys\nfrom pathlib import Path\nroot = Path({root:?})\nos.chdir({folder:?})\n\
+         sys.path.insert(0, {:?})\nsys.path.append(str(root / 'examples'))\n",
+        module()
+    );
+    common::run_text(python, &folder, &(begin + code), [""; 0])
 }
 
-/// Runs the code of a notebook, and then `check`, in a folder of its own, in this program's environment. What is
-/// printed must be what the notebook says was printed.
-fn run(name: &str, check: &str) {
-    run_in(common::python().clone(), name, check);
+/// With this program.
+fn python() -> Python {
+    common::that_builds(common::python().clone())
 }
 
-fn run_in(python: Python, name: &str, check: &str) {
-    let folder = common::folder(name);
-    let mut code = format!("import os, sys\nos.chdir({:?})\n", folder.to_str().unwrap());
-    for path in [module(), common::root().join("examples")] {
-        code += &format!("sys.path.append({path:?})\n");
-    }
-    let mut printed = String::new();
+/// Runs the code of a notebook, and then `check`. What is printed must be what the notebook says was printed.
+fn runs(python: &Python, name: &str, check: &str) {
+    let (mut code, mut printed) = (String::new(), String::new());
     for (source, outputs) in cells(name) {
         code += &format!("{source}\n");
         printed.extend(outputs.iter().filter(|out| out["output_type"] == "stream").map(|out| text(&out["text"])));
     }
-    let script = folder.join("notebook.py");
-    fs::write(&script, code + check).unwrap();
-    let said = that_builds(python).run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = run(python, name, &(code + check));
     assert!(printed.len() > 20 || name == "fmu.ipynb", "{name}: {printed}");
     assert_eq!(said, printed, "{name}: execute it anew");
 }
@@ -111,7 +105,7 @@ fn write_the_notebooks() {
     let python = Python::prepare_from(&Project::find(), "notebooks-python", &(examples + EXECUTES)).unwrap();
     // Pictures as a notebook has them, and the package from its source.
     let inline = "module://matplotlib_inline.backend_inline";
-    let python = that_builds(python).with_variable("MPLBACKEND", inline).with_variable("PYTHONPATH", module());
+    let python = common::that_builds(python).with_variable("MPLBACKEND", inline).with_variable("PYTHONPATH", module());
     let one = std::env::var("BRINELL_PAGE").ok();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/notebook_execute.py");
     let chosen = NOTEBOOKS.into_iter().filter(|name| one.as_ref().is_none_or(|one| one == name)).map(path);
@@ -122,7 +116,7 @@ fn write_the_notebooks() {
 #[test]
 fn the_notebook_of_a_bearing_finds_its_spall_in_envelope_and_length() {
     // Lines of a spectrum over 0.55 s are 1.8 Hz apart.
-    run("bearing.ipynb", BEARING);
+    runs(&python(), "bearing.ipynb", BEARING);
 }
 
 const BEARING: &str = r#"
@@ -140,7 +134,7 @@ ends = [[line.get_xdata() for line in axis.lines if len(line.get_xdata()) == 2] 
 marks = [*passage["edges_deg"], 1.5, 3.25]
 assert [[at for at, last in of if at == last] for of in ends] == [marks, marks], (ends, marks)
 assert axes[0].get_title("left").startswith("recording.npy: 2."), axes[0].get_title("left")
-found = sorted(set(os.listdir()) - {"notebook.py"})
+found = sorted(set(os.listdir()) - {"script.py"})
 assert found == ["mine.toml", "recording.npy", "scene.schema.json"], found
 "#;
 
@@ -151,70 +145,58 @@ fn the_notebook_of_an_fmu_steps_it_in_fmpy() {
                  least = min(result[name][result['time'] > 0.005].min() for name in forces)\n\
                  most, start = (max(pick(result[name]) for name in forces) for pick in (max, lambda f: f[0]))\n\
                  assert least == 0 and most > 1.5 * start, (least, most, start)\n";
-    run("fmu.ipynb", check);
+    runs(&python(), "fmu.ipynb", check);
 }
 
 #[test]
 #[ignore = "needs the environment of the examples, half a gigabyte"]
 fn the_notebook_of_a_rotor_carries_any_rotor_in_two_bearings() {
-    let requirements = fs::read_to_string(common::root().join("examples/requirements.txt")).unwrap();
-    let python = Python::prepare_from(&Project::find(), "examples-python", &requirements).unwrap();
-    let script = common::folder("rotor-version").join("version.py");
-    fs::write(&script, "import sys\nprint(sys.version_info >= (3, 10))").unwrap();
-    if python.run_file(&script, [""; 0]).unwrap().trim() != "True" {
-        return; // ROSS does not run there.
+    if !common::has_ross() {
+        return;
     }
     // The spalled end goes down with each passage, the healthy one hardly: half of a line's width is 1.7 Hz, and lines
     // are 3.3 Hz apart.
     let check = "assert abs(strongest - ball_pass) < 3.4, (strongest, ball_pass)\n\
                  assert len(plt.get_fignums()) == 2 and run.yout.shape == (8001, 54)\n\
                  assert np.ptp(run.at(8)[late, 1]) > 2 * np.ptp(run.at(0)[late, 1])\n";
-    run_in(python, "rotor.ipynb", check);
+    runs(common::examples_python(), "rotor.ipynb", check);
 }
 
 #[test]
 fn what_the_program_refuses_is_an_error_of_the_module_in_its_words() {
-    let folder = common::folder("module");
-    let script = folder.join("errors.py");
-    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
-    let code = format!(
-        "import sys\nsys.path.insert(0, {module:?})\nimport brinell\n\
-         assert '6205-epps' in brinell.scenes() and len(brinell.scenes()) >= 12\n\
-         for call in (lambda: brinell.run('no-such-scene'), lambda: brinell.run('6205-healthy', stop=-1.0),\n\
-         \x20            lambda: brinell.size('none.npy', '6205-spall-5deg', speed=10, rate=51200)):\n\
-         \x20   try:\n\x20       call()\n\x20   except brinell.BrinellError as error:\n\x20       print(error)\n\
-         \x20   else:\n\x20       raise SystemExit('nothing was refused')\n"
-    );
-    fs::write(&script, code).unwrap();
-    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    let said = python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = run(&python(), "module", REFUSED);
     assert!(said.starts_with("no-such-scene: neither a file nor a shipped scene"), "{said}");
     assert!(said.contains("stop time -1 s") && said.contains("none.npy"), "{said}");
 }
 
+const REFUSED: &str = r#"
+import brinell
+assert "6205-epps" in brinell.scenes() and len(brinell.scenes()) >= 12
+for call in (
+    lambda: brinell.run("no-such-scene"),
+    lambda: brinell.run("6205-healthy", stop=-1.0),
+    lambda: brinell.size("none.npy", "6205-spall-5deg", speed=10, rate=51200),
+):
+    try:
+        call()
+    except brinell.BrinellError as error:
+        print(error)
+    else:
+        raise SystemExit("nothing was refused")
+"#;
+
 #[test]
 fn the_module_hands_on_columns_speed_and_noise_and_tells_all_faults_of_a_scene() {
-    let folder = common::folder("module-run");
-    let script = folder.join("module.py");
-    fs::write(&script, MODULE).unwrap();
-    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
-    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    let said =
-        python.run_file(&script, [&*module, &*folder, common::root()]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = run(&python(), "module-run", MODULE);
     assert!(said.contains("handed on"), "{said}");
 }
 
 const MODULE: &str = r#"
-import sys
 import warnings
-from pathlib import Path
-
-sys.path.insert(0, sys.argv[1])
 import brinell
 import numpy as np
 
-folder = Path(sys.argv[2])
-profile = folder / "up.csv"
+profile = Path("up.csv")
 profile.write_text("time_s,speed_hz\n0,10\n0.02,20\n")
 names = ["shaft.speed", "sensor.*"]
 clean = brinell.run("6205-healthy", columns=names, speed_profile=profile)
@@ -229,14 +211,14 @@ with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter("always")
     quiet = brinell.run("6205-healthy", stop=1e-4)
     assert not told, told
-    text = (Path(sys.argv[3]) / "scenes/6205-healthy.toml").read_text(encoding="utf-8")
-    scene = folder / "asked.toml"
+    text = (root / "scenes/6205-healthy.toml").read_text(encoding="utf-8")
+    scene = Path("asked.toml")
     scene.write_text(text.replace("load_n = [0.0, -1500.0]", "load_n = [0.0, -1.5]"), encoding="utf-8")
     assert len(brinell.run(scene, stop=1e-4)["time"]) == len(quiet["time"])
 [asked] = told
 assert asked.category is brinell.BrinellWarning and asked.filename == __file__, asked
 assert "shaft.load_n = -1.5: -1500 N given in kN?" in str(asked.message), asked
-scene = folder / "bad.toml"
+scene = Path("bad.toml")
 scene.write_text("name = 'bad'\ncolour = 1\n")
 try:
     brinell.run(scene)
@@ -250,13 +232,7 @@ print("handed on")
 
 #[test]
 fn functions_of_the_module_give_what_their_names_say() {
-    let folder = common::folder("module-functions");
-    let script = folder.join("functions.py");
-    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("module");
-    fs::write(&script, format!("import os, sys\nsys.path.insert(0, {module:?})\nos.chdir({folder:?})\n{FUNCTIONS}"))
-        .unwrap();
-    let python = common::python().clone().with_variable("BRINELL_PROGRAM", env!("CARGO_BIN_EXE_brinell"));
-    python.run_file(&script, [""; 0]).unwrap_or_else(|error| panic!("{error:#}"));
+    run(&python(), "module-functions", FUNCTIONS);
 }
 
 /// pandas is no package of this environment: where it lacks, `to_pandas` says how to get it.
@@ -341,7 +317,7 @@ with warnings.catch_warnings(record=True) as said:
     run = brinell.run(scene, stop=0.005, columns="shaft.load.y")
 assert run.recording is None
 assert [w.category for w in said] == [brinell.BrinellWarning] and "samples nothing" in str(said[0].message), said
-assert said[0].filename.endswith("functions.py")
+assert said[0].filename == __file__
 with open("few.toml", "w") as file:
     file.write('scene = "6205-healthy"\nruns = 2\nstop_s = 0.01\nsettle_s = 0.005\n')
 with warnings.catch_warnings():

@@ -2,8 +2,10 @@
 //! samples themselves. `BRINELL_BROWSER` names a Chromium; without it those that are usual are tried.
 #![allow(clippy::unwrap_used)]
 
+use super::run;
 use crate::common;
-use std::path::Path;
+use crate::common::program::done;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
@@ -22,52 +24,81 @@ pub(super) const FLAGS: [&str; 9] = [
 /// Time of the page, not of the machine.
 const OWN_TIME: &str = "--virtual-time-budget=20000";
 
+/// A Chromium, if there is one.
 pub(super) fn browser() -> Option<String> {
     let named = env::var("BRINELL_BROWSER").ok();
     let usual = BROWSERS.iter().map(|name| (*name).to_owned());
     let answers = |name: &String| Command::new(name).arg("--version").output().is_ok_and(|said| said.status.success());
-    named.into_iter().chain(usual).find(answers)
+    let found = named.into_iter().chain(usual).find(answers);
+    if found.is_none() {
+        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
+    }
+    found
 }
 
 /// What the browser says of a page.
 fn opened(browser: &str, folder: &Path, page: &str, more: &[&str]) -> String {
     let profile = tempfile::tempdir_in(folder).unwrap();
-    let output = Command::new(browser)
-        .args(FLAGS)
-        .arg(OWN_TIME)
-        .arg(format!("--user-data-dir={}", profile.path().display()))
-        .args(more)
-        .arg(format!("file://{page}"))
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).into_owned()
+    let mut command = Command::new(browser);
+    command.args(FLAGS).arg(OWN_TIME).arg(format!("--user-data-dir={}", profile.path().display()));
+    done(command.args(more).arg(format!("file://{page}"))).out
+}
+
+/// What the browser makes of a page with a script behind it.
+fn measured(browser: &str, page: &Path, script: &str, more: &[&str]) -> String {
+    let path = page.with_file_name("measured.html");
+    fs::write(&path, fs::read_to_string(page).unwrap() + script).unwrap();
+    opened(browser, page.parent().unwrap(), &path.display().to_string(), &[more, &["--dump-dom"]].concat())
+}
+
+/// What stands in the document between a tag and the next.
+fn within<'a>(dom: &'a str, tag: &str) -> &'a str {
+    dom.split(tag).nth(1).unwrap_or_else(|| panic!("no {tag}")).split('<').next().unwrap()
 }
 
 /// The number of points that the page drew.
 fn points(dom: &str) -> usize {
     let body = dom.split("<body").nth(1).unwrap().split('>').next().unwrap().to_owned();
     assert!(body.contains("data-state=\"drawn\""), "{body}");
-    let errors = dom.split("<div id=\"errors\">").nth(1).unwrap().split("</div>").next().unwrap();
-    assert_eq!(errors, "", "the page's own errors");
+    assert_eq!(within(dom, "<div id=\"errors\">"), "", "the page's own errors");
     body.split("data-points=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
 }
 
 /// A page of a scene.
-pub(super) fn page(name: &str, scene: &str, more: &[&str]) -> std::path::PathBuf {
+pub(super) fn page(name: &str, scene: &str, more: &[&str]) -> PathBuf {
     common::python();
     let folder = common::folder(name);
-    let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .arg("run")
-        .arg(common::root().join("scenes").join(scene).with_extension("toml"))
-        .args(["--html", "--no-figure", "--columns", "shaft.y", "-o"])
-        .arg(&folder)
-        .args(more)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    run(scene, &folder, &[&["--html", "--no-figure", "--columns", "shaft.y"], more].concat());
     folder.join(scene).with_extension("html")
 }
+
+/// What a script says of the data in a page.
+fn said_of(page: &Path, script: &str) -> String {
+    let folder = page.parent().unwrap();
+    common::run_text(common::python(), folder, &format!("{DATA}{script}"), [page]).trim().to_owned()
+}
+
+/// The same of the motion in a page, beside the run's table.
+pub(super) fn beside_the_table(page: &Path, script: &str) -> String {
+    said_of(page, &format!("{TABLE}{script}"))
+}
+
+const DATA: &str = r#"
+import base64
+import json
+import sys
+import numpy as np
+
+text = open(sys.argv[1], encoding="utf-8").read()
+data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
+"#;
+const TABLE: &str = r#"
+motion = data["motion"]
+numbers = lambda packed: np.frombuffer(base64.b64decode(packed), "<f4").astype(float)
+with open(sys.argv[1].replace(".html", ".csv"), encoding="utf-8") as file:
+    names = [cell.rsplit(" [", 1)[0] for cell in file.readline().strip().split(",")]
+    table = dict(zip(names, np.loadtxt(file, delimiter=",").T))
+"#;
 
 #[test]
 fn the_page_holds_all_it_shows_and_asks_for_nothing() {
@@ -86,10 +117,7 @@ fn the_page_holds_all_it_shows_and_asks_for_nothing() {
 
 #[test]
 fn a_browser_draws_the_page_without_an_error_and_zooming_shows_every_sample() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let path = page("page-drawn", "6205-spall-5deg", &["--stop", "0.3"]);
     let (folder, name) = (path.parent().unwrap(), path.display().to_string());
     // The sensor's 15 345 samples and nine others: at most 4000 of each are drawn, and all of a millisecond: 51 of the
@@ -100,25 +128,19 @@ fn a_browser_draws_the_page_without_an_error_and_zooming_shows_every_sample() {
     assert!(zoomed > 200 && zoomed < 2500, "{zoomed} points in a millisecond");
     let shot = folder.join("page.png");
     opened(&browser, folder, &name, &["--window-size=1250,2400", &format!("--screenshot={}", shot.display())]);
-    let script = folder.join("look.py");
-    fs::write(&script, LOOK).unwrap();
-    let said = common::python().run_file(&script, [&shot]).unwrap_or_else(|error| panic!("{error:#}"));
+    let said = common::run_text(common::python(), folder, LOOK, [&shot]);
     assert!(said.contains("drawn"), "{said}");
 }
 
 #[test]
 #[ignore = "opens a browser five times"]
 fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_said() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let path = page("page-asked", "6205-healthy", &["--stop", "0.1"]);
     let (folder, name) = (path.parent().unwrap(), path.display().to_string());
     let look = |asked: &str| {
         let dom = opened(&browser, folder, &format!("{name}{asked}"), &["--dump-dom"]);
-        let said = dom.split("<p id=\"asked\">").nth(1).unwrap().split("</p>").next().unwrap().to_owned();
-        (points(&dom), said)
+        (points(&dom), within(&dom, "<p id=\"asked\">").to_owned())
     };
     let (all, said) = look("");
     assert!(all > 1000 && said.is_empty(), "{all} points, {said}");
@@ -140,19 +162,12 @@ fn a_time_range_of_the_address_is_cut_to_the_run_and_what_is_wrong_with_it_is_sa
 #[test]
 #[ignore = "opens a browser for each width"]
 fn nothing_lies_under_a_toolbar_in_a_narrow_window() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let path = page("page-narrow", "6205-spall-5deg", &["--stop", "0.3"]);
-    let measured = path.with_file_name("measured.html");
-    fs::write(&measured, fs::read_to_string(&path).unwrap() + OVERLAP).unwrap();
     for width in [500, 700, 1400] {
-        let window = format!("--window-size={width},2700");
-        let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &[&window, "--dump-dom"]);
+        let dom = measured(&browser, &path, OVERLAP, &[&format!("--window-size={width},2700")]);
         assert!(points(&dom) > 20_000);
-        let said = dom.split("<pre id=\"overlap\">").nth(1).unwrap().split("</pre>").next().unwrap();
-        assert_eq!(said, "4 toolbars, 3 legends, under toolbars: ", "at {width} px");
+        assert_eq!(within(&dom, "<pre id=\"overlap\">"), "4 toolbars, 3 legends, under toolbars: ", "at {width} px");
     }
 }
 
@@ -180,11 +195,8 @@ Promise.all(drawn).then(() => {
 #[test]
 fn a_page_of_a_long_run_has_every_sample_of_the_sensor() {
     let path = page("page-long", "6205-healthy", &["--stop", "0.6", "--step", "2e-5"]);
-    let script = path.with_file_name("long.py");
-    fs::write(&script, LONG).unwrap();
-    let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
     // 0.6 s at 51.2 kHz, except for the filter's half length at both ends.
-    let count: usize = said.trim().parse().unwrap();
+    let count: usize = said_of(&path, LONG).parse().unwrap();
     assert!((30_600..30_720).contains(&count), "{count} samples");
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("the page has the least and the greatest; sensor.acceleration has all"));
@@ -192,12 +204,6 @@ fn a_page_of_a_long_run_has_every_sample_of_the_sensor() {
 
 /// Samples of the sensor; all else has been made shorter.
 const LONG: &str = r##"
-import base64
-import json
-import sys
-
-text = open(sys.argv[1], encoding="utf-8").read()
-data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
 counts = {s["name"]: len(base64.b64decode(s["values"])) // 4 for p in data["panels"] for s in p["signals"]}
 sensor = counts.pop(data["motion"]["sensor"])
 assert len(counts) > 10 and max(counts.values()) < 0.9 * sensor, (sensor, counts)
@@ -207,21 +213,12 @@ print(sensor)
 #[test]
 fn no_two_curves_of_a_panel_look_alike() {
     let path = page("page-colours", "nu205-healthy", &["--stop", "0.06"]);
-    let script = path.with_file_name("colours.py");
-    fs::write(&script, COLOURS).unwrap();
-    let said = common::python().run_file(&script, [&path]).unwrap_or_else(|error| panic!("{error:#}"));
     // The bearing has 13 rollers.
-    assert_eq!(said.trim(), "most curves 13");
+    assert_eq!(said_of(&path, COLOURS), "most curves 13");
 }
 
 /// Colours of one style are told apart where they are 60 of 255 or more from each other, and from the white behind.
 const COLOURS: &str = r##"
-import json
-import sys
-import numpy as np
-
-text = open(sys.argv[1], encoding="utf-8").read()
-data, _ = json.JSONDecoder().raw_decode(text[text.index("const DATA = ") + len("const DATA = "):])
 most = 0
 for panel in data["panels"]:
     looks = [(s["dash"], *bytes.fromhex(s["colour"][1:])) for s in panel["signals"]]
@@ -257,17 +254,12 @@ print("drawn", ink)
 #[test]
 #[ignore = "measures the machine; opens a browser"]
 fn the_moving_bearing_is_drawn_sixty_times_a_second() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let path = page("page-sixty", "6205-epps", &["--stop", "0.1"]);
-    let measured = path.with_file_name("measured.html");
-    fs::write(&measured, fs::read_to_string(&path).unwrap() + COST).unwrap();
-    let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
+    let dom = measured(&browser, &path, COST, &[]);
     assert!(dom.contains("data-motion=\"drawn\""));
     points(&dom);
-    let cost: f64 = dom.split("<pre id=\"cost\">").nth(1).unwrap().split('<').next().unwrap().parse().unwrap();
+    let cost: f64 = within(&dom, "<pre id=\"cost\">").parse().unwrap();
     println!("{cost} ms");
     assert!(cost < 1000.0 / 60.0, "{cost} ms a picture");
 }
@@ -275,21 +267,16 @@ fn the_moving_bearing_is_drawn_sixty_times_a_second() {
 #[test]
 #[ignore = "opens a browser"]
 fn the_envelope_of_a_band_that_is_taken_has_the_programs_own_lines() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no Chromium is installed; BRINELL_BROWSER can name one");
-        return;
-    };
+    let Some(browser) = browser() else { return };
     let profile = common::folder("page-band-speed").join("up.csv");
     fs::write(&profile, RUN_UP).unwrap();
     let speed = format!("--speed-profile={}", profile.display());
     // Without equal angles the run-up's lines are 0.2 to 0.85 of the program's.
     for (name, asked, off) in [("page-band", ["--stop", "0.5"].as_slice(), 0.1), ("page-band-up", &[&speed], 0.15)] {
         let path = page(name, "er16k-tb1", asked);
-        let measured = path.with_file_name("measured.html");
-        fs::write(&measured, fs::read_to_string(&path).unwrap() + BAND).unwrap();
-        let dom = opened(&browser, path.parent().unwrap(), &measured.display().to_string(), &["--dump-dom"]);
+        let dom = measured(&browser, &path, BAND, &[]);
         assert!(dom.contains("id=\"band-take\""), "{name}: no band to take");
-        let lines = dom.split("<pre id=\"lines\">").nth(1).unwrap().split('<').next().unwrap();
+        let lines = within(&dom, "<pre id=\"lines\">");
         let ratios: Vec<f64> = lines.split(' ').map(|ratio| ratio.parse().unwrap()).collect();
         // The band's ends are cut there and sloped in the program.
         assert!(ratios.len() == 5 && ratios.iter().all(|ratio| (ratio - 1.0).abs() < off), "{name}: {lines}");

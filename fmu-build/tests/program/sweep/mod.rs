@@ -11,9 +11,10 @@ mod oracle;
 mod rings;
 
 use crate::common;
+use crate::common::program::{brinell, done, npy};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
@@ -40,27 +41,24 @@ shaft.speed_hz = [10, 40]
 "#;
 
 fn program(file: &Path, out: &Path, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    command.arg("sweep").arg(file).arg("-o").arg(out).args(more);
+    let mut command = brinell(&["sweep", "-o"]);
+    command.arg(out).arg(file).args(more);
     command
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 #[track_caller]
 fn sweep(file: &Path, out: &Path, more: &[&str]) -> String {
-    let output = program(file, out, more).output().unwrap();
-    assert!(output.status.success(), "{}", said(&output));
-    said(&output)
+    done(&mut program(file, out, more)).err
 }
 
 #[track_caller]
 fn refused(file: &Path, out: &Path, more: &[&str]) -> String {
-    let output = program(file, out, more).output().unwrap();
-    assert!(!output.status.success(), "it was taken: {}", said(&output));
-    said(&output)
+    crate::common::program::refused(&mut program(file, out, more))
+}
+
+/// The scene of a run.
+fn scene_of(file: &Path, out: &Path, run: &str) -> String {
+    done(&mut program(file, out, &["--scene-of", run])).out
 }
 
 fn file(folder: &Path, text: &str) -> PathBuf {
@@ -82,6 +80,27 @@ fn column(out: &Path, name: &str) -> Vec<Field> {
     let (names, rows) = table(out);
     let index = names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no {name} in {names:?}"));
     rows.into_iter().map(|row| row[index].clone()).collect()
+}
+
+/// Numbers of a column, where there are some.
+fn numbers(out: &Path, name: &str) -> Vec<Option<f64>> {
+    let number = |field| match field {
+        Field::Double(number) => Some(number),
+        Field::Long(number) => Some(number as f64),
+        Field::Null => None,
+        other => panic!("{name}: {other:?}"),
+    };
+    column(out, name).into_iter().map(number).collect()
+}
+
+/// Numbers of a column that has one in each row.
+fn all(out: &Path, name: &str) -> Vec<f64> {
+    numbers(out, name).into_iter().map(|number| number.unwrap_or_else(|| panic!("{name} lacks one"))).collect()
+}
+
+/// Words of a column.
+fn words(out: &Path, name: &str) -> Vec<String> {
+    column(out, name).iter().map(|field| field.to_string().trim_matches('"').to_owned()).collect()
 }
 
 /// Every file of a sweep that is to have the same bits, by its name.
@@ -189,8 +208,7 @@ fn a_sweep_that_is_killed_goes_on_where_it_was_and_has_the_bits_of_one_that_was_
     let signals = SerializedFileReader::new(signals).unwrap();
     let pairs = signals.metadata().file_metadata().key_value_metadata().unwrap();
     let scene = pairs.iter().find(|pair| pair.key == "brinell.scene").unwrap().value.as_deref().unwrap();
-    let printed = program(&path, &whole, &["--scene-of", "3"]).output().unwrap();
-    assert_eq!(scene, String::from_utf8(printed.stdout).unwrap());
+    assert_eq!(scene, scene_of(&path, &whole, "3"));
     let left: Vec<_> = fs::read_dir(&killed).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 6, "design, lock, rows, table, card and signals: {left:?}");
 }
@@ -200,9 +218,7 @@ fn maps_of_spalls_have_half_the_rows_unless_the_sweep_says_otherwise_and_those_o
     let folder = common::folder("sweep-cells");
     let cells = |scene: &str, set: &str| {
         let path = file(&folder, &format!("scene = \"{scene}\"\nruns = 1\n[set]\n{set}\n"));
-        let output = program(&path, &folder.join("out"), &["--scene-of", "0"]).output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
-        let scene: toml::Table = String::from_utf8(output.stdout).unwrap().parse().unwrap();
+        let scene: toml::Table = scene_of(&path, &folder.join("out"), "0").parse().unwrap();
         scene["contact"].get("cells").map(toml::Value::to_string)
     };
     let some = |cells: &str| Some(cells.to_owned());
@@ -219,27 +235,12 @@ fn each_run_has_the_bits_of_brinell_run_of_its_scene() {
     let (path, out) = (file(&folder, &text), folder.join("out"));
     sweep(&path, &out, &["--signals"]);
     for run in [0, 4] {
-        let output = program(&path, &out, &["--scene-of", &run.to_string()]).output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
         let (scene, alone) = (folder.join("scene.toml"), folder.join("alone"));
-        fs::write(&scene, output.stdout).unwrap();
-        let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .arg("run")
-            .arg(&scene)
-            .args(["--stop", "0.03", "--step", "3.90625e-5", "--columns", "sensor.acceleration", "--format", "npy"])
-            .args(["--no-figure", "-o"])
-            .arg(&alone)
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{}", said(&output));
-        let numbers = |path: PathBuf| -> Vec<[f64; 2]> {
-            let bytes = fs::read(path).unwrap();
-            let head = 12 + u32::from_le_bytes(bytes[8..12].try_into().unwrap()) as usize;
-            let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
-            (head..bytes.len()).step_by(16).map(|at| [number(at), number(at + 8)]).collect()
-        };
-        let kept = numbers(out.join(format!("signals/run-{run:07}.npy")));
-        let alone = numbers(alone.join(format!("run-{run:07}-signals.npy")));
+        fs::write(&scene, scene_of(&path, &out, &run.to_string())).unwrap();
+        let mut command = brinell(&["run", "--stop", "0.03", "--step", "3.90625e-5", "--no-figure", "--format", "npy"]);
+        done(command.args(["--columns", "sensor.acceleration", "-o"]).arg(&alone).arg(&scene));
+        let (_, kept) = npy(&out.join(format!("signals/run-{run:07}.npy")), 2);
+        let (_, alone) = npy(&alone.join(format!("run-{run:07}-signals.npy")), 2);
         assert_eq!(kept[..], alone[alone.len() - kept.len()..], "run {run}");
         // 30 ms hold 768 samples, 10 ms 256.
         assert_eq!((kept.len(), alone.len()), (512, 769));
@@ -276,20 +277,10 @@ fn rows_say_what_they_are_runs_of() {
     let (path, out) = (file(&folder, &text), folder.join("out"));
     sweep(&path, &out, &[]);
     assert!(!out.join("signals").exists());
-    let text = |name: &str| -> Vec<String> {
-        column(&out, name).iter().map(|field| field.to_string().trim_matches('"').to_owned()).collect()
-    };
+    let text = |name: &str| words(&out, name);
     assert_eq!(text("kind")[..4], ["healthy", "outer", "inner", "healthy"]);
     assert_eq!(text("label_kind"), text("kind"));
-    let number = |name: &str| -> Vec<Option<f64>> {
-        let of = |field: Field| match field {
-            Field::Double(number) => Some(number),
-            Field::Long(number) => Some(number as f64),
-            Field::Null => None,
-            other => panic!("{other:?}"),
-        };
-        column(&out, name).into_iter().map(of).collect()
-    };
+    let number = |name: &str| numbers(&out, name);
     let healthy: Vec<bool> = text("kind").iter().map(|kind| kind == "healthy").collect();
     for (label, key) in [
         ("label_length_mm", "defect.length_mm"),
@@ -333,20 +324,14 @@ fn a_sweep_measures_with_noise_a_filter_and_a_speed_that_changes() {
     sweep(&path, &noisy, &[]);
     file(&folder, &measured.replace("noise_db = [0, 30]\n", ""));
     sweep(&path, &clean, &[]);
-    let number = |out: &Path, name: &str| -> Vec<f64> {
-        column(out, name)
-            .iter()
-            .map(|field| if let Field::Double(x) = field { *x } else { panic!("{field:?}") })
-            .collect()
-    };
     let profiles = column(&noisy, "speed_profile");
-    for (speed, profile) in number(&noisy, "label_speed_hz").into_iter().zip(&profiles) {
+    for (speed, profile) in all(&noisy, "label_speed_hz").into_iter().zip(&profiles) {
         // The mean of 20 to 40 Hz over the last 20 ms, to a sample of 512.
         let expected = if profile.to_string().contains("up") { 30.0 } else { 20.0 };
         assert!((speed - expected).abs() < 0.03, "{profile}: {speed}");
     }
-    let levels = number(&noisy, "rms_m_s2").into_iter().zip(number(&clean, "rms_m_s2"));
-    for ((noisy, clean), ratio) in levels.zip(number(&noisy, "noise_db")) {
+    let levels = all(&noisy, "rms_m_s2").into_iter().zip(all(&clean, "rms_m_s2"));
+    for ((noisy, clean), ratio) in levels.zip(all(&noisy, "noise_db")) {
         let expected = clean * (1.0 + 10f64.powf(-ratio / 10.0)).sqrt();
         // Noise of some 500 samples: four standard deviations of its own level and of what it shares with the signal.
         assert!((noisy / expected - 1.0).abs() < 0.25, "{noisy} {clean} at {ratio} dB");
@@ -363,8 +348,8 @@ fn runs_of_other_loads_clearances_and_lengths_share_one_contact_map_whatever_the
     let path = file(&folder, text);
     let maps_of = |jobs: &str| -> Vec<(String, Vec<u8>)> {
         let (out, cache) = (folder.join(format!("out-{jobs}")), folder.join(format!("cache-{jobs}")));
-        let output = program(&path, &out, &["--jobs", jobs]).env("BRINELL_CACHE", &cache).output().unwrap();
-        assert!(said(&output).contains("12 runs, 12 of them made now, 0 failed"), "{}", said(&output));
+        let told = done(program(&path, &out, &["--jobs", jobs]).env("BRINELL_CACHE", &cache)).err;
+        assert!(told.contains("12 runs, 12 of them made now, 0 failed"), "{told}");
         let entries = fs::read_dir(cache.join("maps")).unwrap().map(|entry| entry.unwrap().path());
         entries
             .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(path).unwrap()))

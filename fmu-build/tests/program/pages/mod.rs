@@ -1,0 +1,5 @@
+//! What pages and notebooks show is what happens.
+
+mod commands;
+mod hours;
+mod notebooks;
