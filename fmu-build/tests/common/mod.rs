@@ -7,6 +7,7 @@ use brinell::scene::model_file;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 use std::{env, fs};
 
@@ -108,7 +109,9 @@ pub(crate) fn run_text<A: AsRef<OsStr>>(
     text: &str,
     arguments: impl IntoIterator<Item = A>,
 ) -> String {
-    let script = folder.join("script.py");
+    // Tests that run beside each other may write into one folder.
+    static WRITTEN: AtomicU32 = AtomicU32::new(0);
+    let script = folder.join(format!("script-{}.py", WRITTEN.fetch_add(1, Ordering::Relaxed)));
     fs::write(&script, text).unwrap();
     python.run_file(&script, arguments).unwrap_or_else(|error| panic!("{error:#}"))
 }
