@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use brinell::contact::error::ContactError;
-use brinell::contact::love::{ActiveSet, KernelTable, Mirror, Window, rectangle_kernel};
-use brinell_analysis::pressure::{Border, ConjugateGradients, GridActiveSet, GridProblem, GridSolver};
+use brinell::contact::love::{ActiveSet, KernelTable, Mirror, PressedCell, Window, rectangle_kernel};
+use brinell_analysis::pressure::{ConjugateGradients, GridContact, GridProblem, at_force};
 use nalgebra::{DMatrix, DVector};
 
 const APPROACH: f64 = 0.01;
@@ -23,7 +23,51 @@ fn sphere(n: usize, margin: f64, edge: Option<f64>) -> GridProblem {
             gap.push(0.5 * (at(i) * at(i) + at(j) * at(j)) + step);
         }
     }
-    GridProblem::new(n, n, [cell, cell], 1.0, gap, Border::Window).unwrap()
+    GridProblem::new(n, n, [cell, cell], 1.0, gap).unwrap()
+}
+
+/// Which halves of the gap mirror each other to rounding.
+fn mirror_of(problem: &GridProblem) -> Mirror {
+    let (n, m, gap) = (problem.columns(), problem.rows(), problem.gap());
+    let rounding = 8.0 * f64::EPSILON * gap.iter().fold(0.0_f64, |a, h| a.max(h.abs()));
+    let same = |a: usize, b: usize| (gap[a] - gap[b]).abs() <= rounding;
+    let all = |test: &dyn Fn(usize, usize) -> bool| (0..m).all(|j| (0..n).all(|i| test(i, j)));
+    Mirror {
+        x: n.is_multiple_of(2) && all(&|i, j| same(j * n + i, j * n + n - 1 - i)),
+        y: m.is_multiple_of(2) && all(&|i, j| same(j * n + i, (m - 1 - j) * n + i)),
+        middle_row: false,
+    }
+}
+
+/// The active set of law `love` on the whole grid, or on the half or quarter of it that the rest mirrors. Each contact
+/// starts from the one before.
+fn direct(problem: &GridProblem) -> impl FnMut(f64) -> Result<GridContact, ContactError> {
+    let (n, m, mirror) = (problem.columns(), problem.rows(), mirror_of(problem));
+    let (i0, j0) = (if mirror.x { n / 2 } else { 0 }, if mirror.y { m / 2 } else { 0 });
+    let mut solver = ActiveSet::new(&KernelTable::new(n, m, problem.cell()), m - j0, mirror).unwrap();
+    move |approach| {
+        let unknown = (j0..m).flat_map(|j| &problem.gap()[j * n + i0..(j + 1) * n]);
+        let interference: Vec<f64> = unknown.map(|h| approach - h).collect();
+        let window = Window { first: 0, columns: n - i0, interference: &interference };
+        let effort = solver.solve(window)?;
+        let residual = solver.residual(window) / approach;
+        let mut scaled = vec![0.0; n * m];
+        for PressedCell { row, column, pressure, .. } in solver.cells() {
+            let (i, j) = (i0 + column as usize, j0 + row);
+            let (left, front) = (if mirror.x { n - 1 - i } else { i }, if mirror.y { m - 1 - j } else { j });
+            for (i, j) in [(i, j), (left, j), (i, front), (left, front)] {
+                scaled[j * n + i] = pressure;
+            }
+        }
+        Ok(problem.contact(approach, scaled, residual, effort.iterations))
+    }
+}
+
+/// Conjugate gradients on a grid beyond whose border the bodies go on.
+fn within(problem: &GridProblem, tolerance: f64, approach: f64) -> GridContact {
+    let contact = ConjugateGradients::new(problem, tolerance).unwrap().at_approach(approach).unwrap();
+    problem.check_border(&contact).unwrap();
+    contact
 }
 
 #[test]
@@ -35,7 +79,7 @@ fn force_of_a_sphere_converges_to_hertz() {
         let margins = [1.05, 1.1, 1.15, 1.2, 1.3];
         for margin in margins {
             let problem = sphere(n, margin, None);
-            let contact = ConjugateGradients::new(&problem, 1e-8).unwrap().at_approach(APPROACH).unwrap();
+            let contact = within(&problem, 1e-8, APPROACH);
             let error = contact.force / exact - 1.0;
             println!("{n} cells, window {margin}: {error:.1e}");
             assert!(error.abs() < limit, "{n} cells, window {margin}: {error:e}");
@@ -60,8 +104,8 @@ fn force_of_a_sphere_is_hertz_s_wherever_cells_lie_when_gaps_are_halfway_between
             let cell = [cell, cell * if step % 3 == 2 { 1.2 } else { 1.0 }];
             let off = if step < 6 { [0.0; 2] } else { [0.02 * f64::from(step), 0.5 - 0.02 * f64::from(step)] };
             let gap = |x: f64, y: f64| 0.5 * ((x - off[0] * cell[0]).powi(2) + (y - off[1] * cell[1]).powi(2));
-            let problem = GridProblem::sampled(n as usize, n as usize, cell, 1.0, gap, Border::Window).unwrap();
-            let contact = ConjugateGradients::new(&problem, 1e-8).unwrap().at_approach(APPROACH).unwrap();
+            let problem = GridProblem::sampled(n as usize, n as usize, cell, 1.0, gap).unwrap();
+            let contact = within(&problem, 1e-8, APPROACH);
             let error = contact.force / exact - 1.0;
             assert!(error.abs() < limit, "{n} cells, window {margin}: {error:e}");
             worst = worst.max(error.abs());
@@ -79,9 +123,9 @@ fn both_solvers_give_the_same_force_on_smooth_and_broken_gaps() {
         (sphere(64, 1.3, Some(0.002)), Mirror { x: false, y: true, ..Mirror::default() }),
         (sphere(27, 1.3, Some(0.1)), Mirror::default()),
     ] {
-        assert_eq!(problem.mirror(), mirror);
-        let direct = GridActiveSet::new(&problem, false).unwrap().at_approach(APPROACH).unwrap();
-        let iterative = ConjugateGradients::new(&problem, 1e-11).unwrap().at_approach(APPROACH).unwrap();
+        assert_eq!(mirror_of(&problem), mirror);
+        let direct = direct(&problem)(APPROACH).unwrap();
+        let iterative = within(&problem, 1e-11, APPROACH);
         assert!(direct.residual < 1e-11 && iterative.residual < 1e-11);
         // Residuals of 1e-11 of the approach leave about as much of the force.
         assert!((iterative.force / direct.force - 1.0).abs() < 1e-8, "{} {}", iterative.force, direct.force);
@@ -92,8 +136,9 @@ fn both_solvers_give_the_same_force_on_smooth_and_broken_gaps() {
 fn a_prescribed_force_is_met() {
     let problem = sphere(32, 1.3, Some(0.1));
     for force in [1e-5, 1e-4, 1e-3] {
-        let direct = GridActiveSet::new(&problem, true).unwrap().at_force(force, 0.005).unwrap();
-        let iterative = ConjugateGradients::new(&problem, 1e-12).unwrap().at_force(force, 0.005).unwrap();
+        let direct = at_force(direct(&problem), force, 0.005, 1e-11).unwrap();
+        let mut gradients = ConjugateGradients::new(&problem, 1e-12).unwrap();
+        let iterative = at_force(|approach| gradients.at_approach(approach), force, 0.005, 1e-11).unwrap();
         // The rule stops at 1e-11.
         assert!((direct.force / force - 1.0).abs() < 1e-10);
         assert!((iterative.approach / direct.approach - 1.0).abs() < 1e-9);
@@ -108,8 +153,8 @@ fn force_under_a_square_flat_punch_converges() {
     let mut last = f64::INFINITY;
     for n in [16, 32, 64] {
         let cell = 2.0 / n as f64;
-        let problem = GridProblem::new(n, n, [cell, cell], 1.0, vec![0.0; n * n], Border::Body).unwrap();
-        let contact = GridActiveSet::new(&problem, false).unwrap().at_approach(1.0).unwrap();
+        let problem = GridProblem::new(n, n, [cell, cell], 1.0, vec![0.0; n * n]).unwrap();
+        let contact = direct(&problem)(1.0).unwrap();
         let error = (contact.force / exact - 1.0).abs();
         // Uniform cells against a 1/√ singularity at the rim: first order, error about 0.16 cell.
         assert!(error < 0.2 * cell && error < 0.6 * last, "{n}: {error:e}");
@@ -141,8 +186,8 @@ fn circles_press_less_than_hertz_paraboloids_by_a_few_per_cent() {
                     }
                 })
                 .collect();
-            let problem = GridProblem::new(n, m, cell, modulus, gap, Border::Window).unwrap();
-            ConjugateGradients::new(&problem, 1e-9).unwrap().at_approach(approach).unwrap().force
+            let problem = GridProblem::new(n, m, cell, modulus, gap).unwrap();
+            within(&problem, 1e-9, approach).force
         };
         let found = 100.0 * (solve(true) / solve(false) - 1.0);
         println!("{force} N: {found:.2} %");
@@ -170,8 +215,8 @@ fn an_element_centred_on_an_edge_keeps_84_to_86_percent_of_the_force_on_the_rigi
                 sag(r, x) - sag(outer, x) + sag(r, y) - sag(groove, y) + step
             })
             .collect();
-        let problem = GridProblem::new(n, m, cell, modulus, gap, Border::Window).unwrap();
-        let found = ConjugateGradients::new(&problem, 1e-9).unwrap().at_approach(approach).unwrap().force / force;
+        let problem = GridProblem::new(n, m, cell, modulus, gap).unwrap();
+        let found = within(&problem, 1e-9, approach).force / force;
         println!("{force} N: {found:.3}");
         // Two printed digits.
         assert!((0.835..0.865).contains(&found), "{force} N: {found}");
@@ -191,8 +236,8 @@ fn a_raceway_continued_by_a_part_of_a_cell_beyond_its_edge_converges_in_second_o
                 0.5 * (x * x + y * y) + if c % n >= n / 2 { 0.1 } else { 0.0 }
             })
             .collect();
-        let problem = GridProblem::new(n, n, [cell, cell], 1.0, gap, Border::Window).unwrap();
-        ConjugateGradients::new(&problem, 1e-9).unwrap().at_approach(APPROACH).unwrap().force
+        let problem = GridProblem::new(n, n, [cell, cell], 1.0, gap).unwrap();
+        within(&problem, 1e-9, APPROACH).force
     };
     let exact = force(256, 0.17);
     for n in [32, 64] {
@@ -220,8 +265,8 @@ fn printed_gap_of_equation_4_presses_harder_in_a_depression_and_forgets_the_groo
                 gap.push(sag(r, x) - sag(outer, x) + sag(r, y) - groove + sign * depression);
             }
         }
-        let problem = GridProblem::new(n, m, cell, 1.137e11, gap, Border::Body).unwrap();
-        GridActiveSet::new(&problem, false).unwrap().at_approach(5e-6).unwrap().force
+        let problem = GridProblem::new(n, m, cell, 1.137e11, gap).unwrap();
+        direct(&problem)(5e-6).unwrap().force
     };
     let smooth = force(1.0, true, 0.0);
     let right = force(1.0, true, 3e-6);
@@ -263,7 +308,7 @@ fn drop_only(problem: &GridProblem, approach: f64, mut set: Vec<usize>) -> f64 {
 #[test]
 fn dropping_without_adding_is_right_from_the_whole_interference_and_loses_the_force_when_started_warm() {
     let problem = sphere(20, 1.3, Some(0.1));
-    let exact = |approach: f64| GridActiveSet::new(&problem, false).unwrap().at_approach(approach).unwrap();
+    let exact = |approach: f64| direct(&problem)(approach).unwrap();
     let interfering = |approach: f64| (0..400).filter(|&c| problem.gap()[c] < approach).collect::<Vec<_>>();
     let cold = drop_only(&problem, APPROACH, interfering(APPROACH));
     // Same equations, another elimination: rounding.
@@ -278,17 +323,16 @@ fn dropping_without_adding_is_right_from_the_whole_interference_and_loses_the_fo
 #[test]
 fn a_contact_that_reaches_the_window_is_an_error() {
     let problem = sphere(32, 0.9, None);
-    for result in [
-        GridActiveSet::new(&problem, false).unwrap().at_approach(APPROACH),
-        ConjugateGradients::new(&problem, 1e-8).unwrap().at_approach(APPROACH),
-    ] {
+    let iterative = ConjugateGradients::new(&problem, 1e-8).unwrap().at_approach(APPROACH);
+    for contact in [direct(&problem)(APPROACH), iterative] {
+        let result = problem.check_border(&contact.unwrap());
         assert!(matches!(result, Err(ContactError::ReachesEdge { .. })), "{result:?}");
     }
 }
 
 #[test]
 fn impossible_problems_are_refused_with_the_quantity() {
-    let new = |cell: [f64; 2], modulus: f64, gap: Vec<f64>| GridProblem::new(2, 2, cell, modulus, gap, Border::Window);
+    let new = |cell: [f64; 2], modulus: f64, gap: Vec<f64>| GridProblem::new(2, 2, cell, modulus, gap);
     assert!(new([1.0, 1.0], 1.0, vec![0.0; 3]).unwrap_err().to_string().contains("gap has 3 values"));
     assert!(new([0.0, 1.0], 1.0, vec![0.0; 4]).unwrap_err().to_string().contains("cell length"));
     assert!(new([1.0, 1.0], f64::NAN, vec![0.0; 4]).unwrap_err().to_string().contains("effective modulus"));

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 use brinell::contact::rolling::RacewaySide;
-use brinell_analysis::pressure::{BallOnRaceway, Border, ConjugateGradients, GridProblem, GridSolver};
+use brinell_analysis::pressure::{BallOnRaceway, ConjugateGradients, GridContact, GridProblem};
 
 /// A sphere of a ball's radius (m) on a plane; E* and the limit (Pa).
 const RADIUS: f64 = 3.97e-3;
@@ -12,12 +12,14 @@ const LIMIT: f64 = 6e9;
 /// Force (N) and approach (m) at which Hertz's pressure comes to the limit: π³ R² H³/(6 E*²), R (π H/(2 E*))².
 const ONSET: (f64, f64) = (1359.988, 27.260_56e-6);
 
-fn sphere(approach: f64, cells: usize, limit: f64) -> brinell_analysis::pressure::GridContact {
+fn sphere(approach: f64, cells: usize, limit: f64) -> GridContact {
     // The contact's radius of an elastic sphere, and room for one that yields, which is up to 1.4 times as wide.
     let side = 2.0 * 1.5 * (RADIUS * approach).sqrt() / cells as f64;
     let gap = |x: f64, y: f64| (x * x + y * y) / (2.0 * RADIUS);
-    let problem = GridProblem::sampled(cells, cells, [side, side], MODULUS, gap, Border::Window).unwrap();
-    ConjugateGradients::limited(&problem, 1e-8, limit).unwrap().at_approach(approach).unwrap()
+    let problem = GridProblem::sampled(cells, cells, [side, side], MODULUS, gap).unwrap();
+    let contact = ConjugateGradients::limited(&problem, 1e-8, limit).unwrap().at_approach(approach).unwrap();
+    problem.check_border(&contact).unwrap();
+    contact
 }
 
 #[test]
@@ -29,8 +31,9 @@ fn a_sphere_that_yields_carries_less_and_stays_dented() {
         let found = sphere(times * approach, 64, LIMIT);
         // Two grids of the independent solution agree to 2e-4; four digits of it are given.
         assert!((found.force / force / share - 1.0).abs() < 1e-3, "{times}: {}", found.force / force);
-        assert!(found.max_pressure() <= LIMIT * (1.0 + 1e-12), "{times}: {:e}", found.max_pressure());
-        let deepest = found.dent.iter().fold(0.0f64, |m, &d| m.max(d));
+        let most = |of: &[f64]| of.iter().copied().fold(0.0, f64::max);
+        let (highest, deepest) = (most(&found.pressure), most(&found.dent));
+        assert!(highest <= LIMIT * (1.0 + 1e-12), "{times}: {highest:e}");
         // The deepest cell is half a cell off the axis, where the sphere is 5.5e-4 of the approach higher.
         assert!((deepest / dent - 1.0).abs() < 5e-3, "{times}: {deepest:e}");
     }
@@ -69,7 +72,7 @@ fn the_edge_of_a_spall_is_rounded_by_less_than_half_a_micrometre_and_the_force_h
 
 #[test]
 fn a_limit_that_is_none_is_refused() {
-    let problem = GridProblem::new(1, 1, [1e-6; 2], MODULUS, vec![0.0], Border::Body).unwrap();
+    let problem = GridProblem::new(1, 1, [1e-6; 2], MODULUS, vec![0.0]).unwrap();
     for limit in [0.0, -1e9, f64::NAN] {
         assert!(ConjugateGradients::limited(&problem, 1e-8, limit).is_err());
     }

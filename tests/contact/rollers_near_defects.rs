@@ -8,7 +8,7 @@ use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::line_contact::logarithmic_depth;
 use brinell::surface::{Profile, Surface, Topography};
-use brinell_analysis::pressure::{Border, ConjugateGradients, GridContact, GridProblem, GridSolver};
+use brinell_analysis::pressure::{ConjugateGradients, GridContact, GridProblem, at_force};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -45,11 +45,12 @@ fn problem(element: ElementOnRaceway, force: f64, [columns, rows]: [usize; 2], e
         let missing = if edge && x > 0.0 { 1e-3 } else { 0.0 };
         0.5 * curvature * x * x + if crowned { logarithmic_depth(7.5e-3, LENGTH, y) } else { 0.0 } + missing
     });
-    GridProblem::new(columns, rows, cell, MODULUS, gap.collect(), Border::Body).unwrap()
+    GridProblem::new(columns, rows, cell, MODULUS, gap.collect()).unwrap()
 }
 
 fn solved(problem: &GridProblem, force: f64) -> GridContact {
-    let contact = ConjugateGradients::new(problem, 1e-8).unwrap().at_force(force, 4e-9 * force).unwrap();
+    let mut solver = ConjugateGradients::new(problem, 1e-8).unwrap();
+    let contact = at_force(|approach| solver.at_approach(approach), force, 4e-9 * force, 1e-11).unwrap();
     let columns = problem.columns();
     assert!(contact.pressure.chunks(columns).all(|row| row[0] == 0.0), "contact ends within the columns");
     contact

@@ -17,7 +17,7 @@
 use brinell::contact::error::ContactError;
 
 use super::fft_product::FftProduct;
-use super::grid::{GridContact, GridProblem, GridSolver};
+use super::grid::{GridContact, GridProblem};
 
 /// Grids smaller than this in one direction are not coarsened any more.
 const COARSEST: usize = 16;
@@ -103,10 +103,12 @@ impl<'a> ConjugateGradients<'a> {
         }
         Ok(Self { problem, tolerance, levels })
     }
-}
 
-impl GridSolver for ConjugateGradients<'_> {
-    fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
+    /// Solves at the approach δ (m).
+    ///
+    /// # Errors
+    /// When the iteration does not end.
+    pub fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
         let mut solution: Option<Coarse> = None;
         let mut reached = Reached::default();
         for (depth, level) in self.levels.iter_mut().enumerate().rev() {
@@ -118,13 +120,9 @@ impl GridSolver for ConjugateGradients<'_> {
             }
         }
         let (finest, residual) = (&self.levels[0], reached.residual / approach.abs());
-        let mut contact = self.problem.finish(approach, finest.pressure.clone(), residual, reached.iterations)?;
+        let mut contact = self.problem.contact(approach, finest.pressure.clone(), residual, reached.iterations);
         contact.dent = finest.dent();
         Ok(contact)
-    }
-
-    fn first_touch(&self) -> f64 {
-        self.problem.first_touch()
     }
 }
 

@@ -10,7 +10,7 @@
 
 use super::conjugate_gradients::ConjugateGradients;
 use super::defect_below::DefectBelow;
-use super::grid::{Border, GridContact, GridProblem, GridSolver};
+use super::grid::{GridContact, GridProblem, at_force};
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::error::ContactError;
 use brinell::contact::rolling::RacewaySide;
@@ -251,49 +251,24 @@ impl BallOnRaceway {
         let middle = window.map(|[from, to]| 0.5 * (from + to));
         let smooth = |x: f64, y: f64| self.bodies.gap(middle[0] + x, middle[1] + y);
         let modulus = self.effective_modulus;
-        let sampled = GridProblem::sampled(n, n, cell, modulus, smooth, Border::Window)?;
+        let sampled = GridProblem::sampled(n, n, cell, modulus, smooth)?;
         let mut depth = vec![0.0; n * n];
         self.defects.iter().for_each(|defect| defect.add_depth(*window, cell, &mut depth));
         let mut gap: Vec<f64> = sampled.gap().iter().zip(&depth).map(|(h, d)| h + d).collect();
         // From the first touch on: a deep defect's floor would take digits away.
         let touch = gap.iter().fold(f64::INFINITY, |m, &h| m.min(h));
         gap.iter_mut().for_each(|h| *h -= touch);
-        let problem = GridProblem::new(n, n, cell, modulus, gap, Border::Window)?;
-        let contact =
-            at_force(&mut ConjugateGradients::limited(&problem, RESIDUAL, self.pressure_limit)?, force, guess)?;
+        let problem = GridProblem::new(n, n, cell, modulus, gap)?;
+        let mut solver = ConjugateGradients::limited(&problem, RESIDUAL, self.pressure_limit)?;
+        let within = |approach| {
+            let contact = solver.at_approach(approach)?;
+            problem.check_border(&contact).map(|()| contact)
+        };
+        let contact = at_force(within, force, guess, FORCE_RESIDUAL)?;
         let (cells, GridContact { approach: since, pressure, force, dent, residual, .. }) = ([n, n], contact);
         let approach = touch + since;
         Ok((Pressed { cells, cell, middle, approach, force, pressure, depth, dent, residual }, since))
     }
-}
-
-/// The contact under a force (N): secants on F^(2/3), which Hertz makes a straight line, kept between approaches that
-/// are known to be too small and too large.
-fn at_force(solver: &mut impl GridSolver, force: f64, guess: f64) -> Result<GridContact, ContactError> {
-    const MOST: usize = 60;
-    let root = |force: f64| libm::cbrt(force * force);
-    let target = root(force);
-    let (mut low, mut high) = ([0.0, 0.0], f64::INFINITY);
-    let (mut last, mut at, mut residual) = ([0.0, 0.0], guess, f64::NAN);
-    for _ in 0..MOST {
-        let contact = solver.at_approach(at)?;
-        residual = contact.force / force - 1.0;
-        if residual.abs() < FORCE_RESIDUAL {
-            return Ok(contact);
-        }
-        let here = [at, root(contact.force)];
-        if residual < 0.0 {
-            low = here
-        } else {
-            high = at
-        }
-        let slope = (here[1] - last[1]) / (here[0] - last[0]);
-        let secant = at + (target - here[1]) / slope;
-        last = here;
-        let most = if high.is_finite() { high } else { 4.0 * at };
-        at = if secant > low[0] && secant < most { secant } else { 0.5 * (low[0] + most) };
-    }
-    Err(ContactError::NotConverged { iterations: MOST, residual, limit: FORCE_RESIDUAL })
 }
 
 impl Pressed {

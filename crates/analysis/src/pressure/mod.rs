@@ -12,6 +12,6 @@ pub use conjugate_gradients::ConjugateGradients;
 pub use contact_pressure::{BallOnRaceway, Hertz, Pressed, PressureError};
 pub use defect_below::DefectBelow;
 pub use fft_product::FftProduct;
-pub use grid::{Border, GridActiveSet, GridContact, GridProblem, GridSolver};
+pub use grid::{GridContact, GridProblem, at_force};
 pub use report::{ContactReport, DentReport, Highest, PatchReport, Section, StressAt, StressReport};
 pub use subsurface::{Corners, Stress, maximum};
