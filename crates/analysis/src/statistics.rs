@@ -43,6 +43,12 @@ pub fn vertex([a, b, c]: [f64; 3]) -> f64 {
     if second < 0.0 { 0.5 * (a - c) / second } else { 0.0 }
 }
 
+/// The least and the greatest; of nothing the infinities, the positive one first.
+pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let wider = |[least, most]: [f64; 2], value: f64| [least.min(value), most.max(value)];
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], wider)
+}
+
 /// Standard deviation about the mean, with n − 1; 0 of fewer than two.
 pub fn deviation(values: &[f64]) -> f64 {
     if values.len() < 2 {
@@ -118,18 +124,6 @@ impl Random {
         let (u, v) = (1.0 - self.uniform(), self.uniform());
         (-2.0 * libm::log(u)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * v)
     }
-}
-
-/// Mean of some of the rows, column by column.
-pub(crate) fn average_of(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<f64> {
-    let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
-    for &k in chosen {
-        for (s, x) in sum.iter_mut().zip(&rows[k]) {
-            *s += x;
-        }
-    }
-    sum.iter_mut().for_each(|s| *s /= chosen.len() as f64);
-    sum
 }
 
 #[cfg(test)]

@@ -44,10 +44,7 @@ pub struct Eigenpair {
 /// # Errors
 /// A matrix with an entry that is not finite; no convergence.
 pub fn eigenvalues(matrix: &[Vec<f64>]) -> Result<Vec<c64>, EigenError> {
-    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
-        return Err(EigenError::NotFinite);
-    }
-    to_faer(matrix, matrix.len()).eigenvalues().map_err(|_| EigenError::NoConvergence)
+    to_faer(matrix)?.eigenvalues().map_err(|_| EigenError::NoConvergence)
 }
 
 /// The eigenpairs of a square real matrix, rows by columns; of each complex pair the one with positive imaginary part.
@@ -56,10 +53,7 @@ pub fn eigenvalues(matrix: &[Vec<f64>]) -> Result<Vec<c64>, EigenError> {
 /// A matrix with an entry that is not finite; no convergence; pairs that miss the equation.
 pub fn eigenpairs(matrix: &[Vec<f64>]) -> Result<Vec<Eigenpair>, EigenError> {
     let size = matrix.len();
-    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
-        return Err(EigenError::NotFinite);
-    }
-    let found = to_faer(matrix, size).eigen().map_err(|_| EigenError::NoConvergence)?;
+    let found = to_faer(matrix)?.eigen().map_err(|_| EigenError::NoConvergence)?;
     let (values, vectors) = (found.S(), found.U());
     let norm = matrix.iter().flatten().map(|entry| entry * entry).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
     let mut pairs = Vec::with_capacity(size);
@@ -113,10 +107,7 @@ fn unit(vector: Vec<c64>) -> Vec<c64> {
 /// As for [`eigenpairs`].
 pub fn null_space(matrix: &[Vec<f64>], share: f64) -> Result<Vec<Vec<f64>>, EigenError> {
     let size = matrix.len();
-    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
-        return Err(EigenError::NotFinite);
-    }
-    let found = to_faer(matrix, size).svd().map_err(|_| EigenError::NoConvergence)?;
+    let found = to_faer(matrix)?.svd().map_err(|_| EigenError::NoConvergence)?;
     let (values, vectors) = (found.S(), found.V());
     let largest = (0..size).map(|k| values[k]).fold(0.0, f64::max);
     let nothing = (0..size).filter(|&k| values[k] <= share * largest);
@@ -141,6 +132,10 @@ pub fn least_squares(rows: &[Vec<f64>], known: &[f64]) -> Result<Vec<f64>, Eigen
     if found.iter().all(|number| number.is_finite()) { Ok(found) } else { Err(EigenError::NotFinite) }
 }
 
-fn to_faer(matrix: &[Vec<f64>], size: usize) -> Mat<f64> {
-    Mat::from_fn(size, size, |i, k| matrix[i][k])
+/// A square matrix whose entries are all finite.
+fn to_faer(matrix: &[Vec<f64>]) -> Result<Mat<f64>, EigenError> {
+    if !matrix.iter().flatten().all(|entry| entry.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    Ok(Mat::from_fn(matrix.len(), matrix.len(), |i, k| matrix[i][k]))
 }

@@ -6,6 +6,8 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
+use crate::keep_ends_real;
+
 /// A filter whose answer is real and even in both directions, so that its spectrum is real.
 pub struct EvenFilter {
     period: [usize; 2],
@@ -68,13 +70,7 @@ impl EvenFilter {
             for (line, values) in self.lines.iter_mut().zip(self.values.chunks_exact(rows)) {
                 *line = values[j];
             }
-            // Rounding leaves an imaginary part in the lines that a real signal has real, and it is refused there.
-            self.lines[0].im = 0.0;
-            if self.period[0].is_multiple_of(2)
-                && let Some(last) = self.lines.last_mut()
-            {
-                last.im = 0.0;
-            }
+            keep_ends_real(&mut self.lines, self.period[0]);
             // Lengths are those of the plan.
             let _ = self.backward.process_with_scratch(&mut self.lines, &mut self.row, &mut self.scratch);
             out.copy_from_slice(&self.row[..columns]);

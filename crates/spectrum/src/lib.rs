@@ -77,18 +77,21 @@ impl Spectrum {
         let scale = 1.0 / self.len as f64;
         let mut bins: Vec<_> =
             self.bins.iter().enumerate().map(|(k, &x)| x * factor * (scale * gain(k as f64 * step))).collect();
-        // The first bin and, at even length, the last stand for themselves alone and must stay real.
-        bins[0].im = 0.0;
-        if self.len.is_multiple_of(2)
-            && let Some(last) = bins.last_mut()
-        {
-            last.im = 0.0;
-        }
+        keep_ends_real(&mut bins, self.len);
         let mut signal = vec![0.0; self.len];
         let plan = self.planner.plan_fft_inverse(self.len);
         // Its only errors are wrong lengths and imaginary parts at the ends, excluded above.
         let _ = plan.process(&mut bins, &mut signal);
         signal
+    }
+}
+
+/// The first bin and, at even length of the signal, the last stand for themselves alone and must be real, which rounding
+/// does not leave them: the inverse transform refuses others.
+pub(crate) fn keep_ends_real(bins: &mut [Complex<f64>], len: usize) {
+    bins[0].im = 0.0;
+    if let Some(last) = bins.last_mut().filter(|_| len.is_multiple_of(2)) {
+        last.im = 0.0;
     }
 }
 
@@ -110,12 +113,7 @@ pub fn circular_correlation(a: &[f64], b: &[f64]) -> Vec<f64> {
     let (a, b) = (forward(plan.as_ref(), a.to_vec()), forward(plan.as_ref(), b.to_vec()));
     let len = 2 * (a.len() - 1) + usize::from(!plan.len().is_multiple_of(2));
     let mut product: Vec<_> = a.iter().zip(&b).map(|(a, b)| a * b.conj() / len as f64).collect();
-    product[0].im = 0.0;
-    if len.is_multiple_of(2)
-        && let Some(last) = product.last_mut()
-    {
-        last.im = 0.0;
-    }
+    keep_ends_real(&mut product, len);
     let mut correlation = vec![0.0; len];
     let _ = planner.plan_fft_inverse(len).process(&mut product, &mut correlation);
     correlation

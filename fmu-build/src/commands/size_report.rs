@@ -6,8 +6,8 @@ use brinell::geometry::kinematics::frequencies;
 use brinell::scene::Scene;
 use brinell_analysis::recording::Recording;
 use brinell_analysis::sizing::{Figure, RecordingReport, Report};
-use brinell_analysis::spectra::{CombReport, EnvelopeSpectrum};
-use brinell_analysis::spectrum;
+use brinell_analysis::spectra::{Comb, EnvelopeSpectrum};
+use brinell_analysis::{spectrum, statistics};
 use minijinja::context;
 use serde_json::{Value, json};
 
@@ -51,11 +51,11 @@ pub(super) fn page(report: &Report, recordings: &[Recording], scene: &Scene, fou
 
 fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &Scene) -> Value {
     let nominal = frequencies(&scene.bearing, 0.0, recording.speed());
-    let comb = |kind: &str, rolling: f64, comb: &CombReport| {
+    let comb = |kind: &str, rolling: f64, comb: &Comb| {
         json!([
             kind,
             format!("{rolling:.2}"),
-            format!("{:.2}", comb.frequency_hz),
+            format!("{:.2}", comb.frequency),
             format!("{:.1}", 100.0 * comb.share),
             format!("{:.1}", 100.0 * comb.alone)
         ])
@@ -102,7 +102,7 @@ fn envelope_spectrum(one: &RecordingReport, recording: &Recording, scene: &Scene
     let combs = [("BPFO", &one.combs.outer), ("BPFI", &one.combs.inner), ("2 BSF", &one.combs.element)];
     let marks: Vec<(f64, String)> = combs
         .into_iter()
-        .flat_map(|(name, comb)| (1..=HARMONICS).map(move |k| (f64::from(k) * comb.frequency_hz, times(k, name))))
+        .flat_map(|(name, comb)| (1..=HARMONICS).map(move |k| (f64::from(k) * comb.frequency, times(k, name))))
         .chain([(recording.speed(), "shaft".to_owned())])
         .collect();
     let [low, high] = [envelope.band.low, envelope.band.high].map(|hertz| 1e-3 * hertz);
@@ -132,15 +132,14 @@ fn events(one: &RecordingReport) -> Vec<(f64, String)> {
 
 /// A curve in pixels, with numbers on its axes and what is marked.
 fn chart(title: &str, axis: &str, x: &[f64], y: &[f64], marks: &[(f64, String)]) -> Value {
-    let ends =
-        |values: &[f64]| values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    let ((left, right), (low, high)) = (ends(x), ends(y));
+    let ends = |values: &[f64]| statistics::extent(values.iter().copied());
+    let ([left, right], [low, high]) = (ends(x), ends(y));
     let across = |value: f64| WIDTH * (value - left) / (right - left).max(f64::MIN_POSITIVE);
     let down = |value: f64| HEIGHT * (high - value) / (high - low).max(f64::MIN_POSITIVE);
     let mut points = String::new();
     let every = x.len().div_ceil(COLUMNS).max(1);
     for (x, y) in x.chunks(every).zip(y.chunks(every)) {
-        let (low, high) = ends(y);
+        let [low, high] = ends(y);
         points += &format!("{:.1},{:.1} {:.1},{:.1} ", across(x[0]), down(low), across(x[0]), down(high));
     }
     let mut marks: Vec<&(f64, String)> = marks.iter().filter(|(at, _)| (left..=right).contains(at)).collect();

@@ -9,11 +9,9 @@
 
 use super::defect_edge_angles;
 use super::defect_edge_angles::Edge;
-use crate::statics::{StaticError, surfaces_and_map};
-use brinell::dynamics::contacts::Forces;
+use crate::statics::{InBalance, StaticError, in_balance, surfaces_and_map};
 use brinell::dynamics::derivatives::Jacobian;
-use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{COORDINATES, Cells, Cubic, Excitation, Layout, Model, Quadratic, WholeAngle};
+use brinell::dynamics::parameters::{COORDINATES, Cubic, Excitation, Layout, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{DegreesOfFreedom, Motion, Ring, Scene};
 use brinell::simulation::setup::{build_model, largest_force};
@@ -268,15 +266,13 @@ impl Assembly {
         let load = self.loads.map(|ring| ring.map(Quadratic::constant));
         let mut excitation = Excitation { load, ..Excitation::standing(cage_angle, frames) };
         if let Some(seat) = &self.seat {
-            let (_, state) = self.equilibrium(seat, &excitation)?;
+            let state = in_balance(seat, &excitation)?.state;
             let position = seat.shaft_state(&excitation, 0.0, &state).position;
             for (motion, &x) in excitation.motion[0].iter_mut().zip(&position) {
                 *motion = Cubic([x, 0.0, 0.0, 0.0]);
             }
         }
-        let (cells, state) = self.equilibrium(model, &excitation)?;
-        let mut forces = Forces::of(model);
-        model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let InBalance { cells, state, mut forces } = in_balance(model, &excitation)?;
         let mut jacobian = Jacobian::new(model);
         model.linearize(&excitation, 0.0, &cells, &state, &mut jacobian, &mut forces.shortcuts);
         let contacts = &forces.contacts;
@@ -299,16 +295,5 @@ impl Assembly {
             holds: carried.iter().map(hold).collect(),
             carried,
         })
-    }
-
-    fn equilibrium(&self, model: &Model, excitation: &Excitation) -> Result<(Cells, Vec<f64>), StaticError> {
-        let mut state = vec![0.0; model.layout.len];
-        let found = model.equilibrium_with_cells(excitation, &mut state);
-        let cells = found.map_err(|cause: EquilibriumError| StaticError::Equilibrium {
-            cage_angle_deg: excitation.cage_start.to_degrees(),
-            load: [0, 1, 2].map(|axis| self.loads[0][axis]),
-            cause,
-        })?;
-        Ok((cells, state))
     }
 }

@@ -134,29 +134,21 @@ pub(crate) fn spans(found: &[Modes]) -> Vec<f64> {
     (0..found.len()).map(|i| 0.5 * (angle((i + 1).min(last)) - angle(i.saturating_sub(1)))).collect()
 }
 
-/// Two modes at neighbouring angles that may be one.
-struct Candidate {
-    nearness: f64,
-    /// Index at the angle before.
-    old: usize,
-    /// Index here.
-    new: usize,
-}
-
 /// Gives the modes at an angle the lines of those before, and new lines to the rest.
 fn follow(before: Option<&Modes>, here: &mut Modes, lines: &mut usize) {
-    let mut candidates: Vec<Candidate> = Vec::new();
+    // How near, and the numbers before and here, of two modes that may be one.
+    let mut candidates: Vec<(f64, usize, usize)> = Vec::new();
     for (i, old) in before.iter().flat_map(|modes| modes.modes.iter().enumerate()) {
         for (k, new) in here.modes.iter().enumerate() {
             let nearness = nearness(old, new);
             if nearness > SAME {
-                candidates.push(Candidate { nearness, old: i, new: k });
+                candidates.push((nearness, i, k));
             }
         }
     }
-    candidates.sort_by(|a, b| b.nearness.total_cmp(&a.nearness));
+    candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut taken = Vec::new();
-    for Candidate { old, new, .. } in candidates {
+    for (_, old, new) in candidates {
         let line = before.and_then(|modes| modes.modes[old].line);
         if here.modes[new].line.is_none() && !taken.contains(&old) {
             here.modes[new].line = line;

@@ -4,6 +4,7 @@
 use super::assembly::{Assembly, Body, Hold};
 use super::eigenmodes::{Kind, Mode, Modes};
 use super::lines::spans;
+use crate::statistics;
 use serde::Serialize;
 
 /// Modes over one element spacing.
@@ -138,10 +139,7 @@ impl ModesReport {
 
 /// The report of a line from its modes, each with the part of the angles that it stands for (rad).
 fn line_report(line: usize, modes: &[(&Mode, f64)], bodies: &[Body]) -> LineReport {
-    let extent = |of: fn(&Mode) -> Option<f64>| {
-        let values = modes.iter().filter_map(|(mode, _)| of(mode));
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
-    };
+    let extent = |of: fn(&Mode) -> Option<f64>| statistics::extent(modes.iter().filter_map(|(mode, _)| of(mode)));
     let whole: f64 = modes.iter().map(|(_, span)| span).sum();
     let mean =
         |of: &dyn Fn(&Mode) -> f64| rounded(modes.iter().map(|(mode, span)| span * of(mode)).sum::<f64>() / whole);

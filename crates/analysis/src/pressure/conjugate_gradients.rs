@@ -109,35 +109,22 @@ impl<'a> ConjugateGradients<'a> {
     /// # Errors
     /// When the iteration does not end.
     pub fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
-        let mut solution: Option<Coarse> = None;
-        let mut reached = Reached::default();
+        let mut coarser: Option<(usize, Vec<f64>)> = None;
+        let mut reached = (0.0, 0);
         for (depth, level) in self.levels.iter_mut().enumerate().rev() {
-            level.start(approach, solution.take());
+            level.start(approach, coarser.take());
             let limit = if depth == 0 { self.tolerance } else { COARSE_TOLERANCE } * approach.abs();
             reached = level.solve(limit)?;
             if depth > 0 {
-                solution = Some(Coarse { columns: level.columns, pressure: level.pressure.clone() });
+                coarser = Some((level.columns, level.pressure.clone()));
             }
         }
-        let (finest, residual) = (&self.levels[0], reached.residual / approach.abs());
-        let mut contact = self.problem.contact(approach, finest.pressure.clone(), residual, reached.iterations);
+        let (finest, (residual, iterations)) = (&self.levels[0], reached);
+        let residual = residual / approach.abs();
+        let mut contact = self.problem.contact(approach, finest.pressure.clone(), residual, iterations);
         contact.dent = finest.dent();
         Ok(contact)
     }
-}
-
-/// The pressures on the coarser grid.
-struct Coarse {
-    columns: usize,
-    pressure: Vec<f64>,
-}
-
-/// What an iteration has reached.
-#[derive(Debug, Clone, Copy, Default)]
-struct Reached {
-    /// (m)
-    residual: f64,
-    iterations: usize,
 }
 
 impl Level {
@@ -169,14 +156,14 @@ impl Level {
         left.zip(&self.pressure).map(|(left, &p)| if p >= self.highest { left } else { 0.0 }).collect()
     }
 
-    /// Pressure from the coarser grid, bilinear; or none, with the set of cells whose interference exceeds half the
+    /// Pressure from the coarser grid of so many columns, bilinear; or none, with the set of cells whose interference exceeds half the
     /// largest.
-    fn start(&mut self, approach: f64, coarse: Option<Coarse>) {
+    fn start(&mut self, approach: f64, coarser: Option<(usize, Vec<f64>)>) {
         for (g, h) in self.interference.iter_mut().zip(&self.gap) {
             *g = approach - h;
         }
-        match coarse {
-            Some(Coarse { columns: n, pressure: p }) => {
+        match coarser {
+            Some((n, p)) => {
                 let m = p.len() / n;
                 let at = |i: usize, j: usize| p[j * n + i];
                 let near = |k: usize, count: usize| {
@@ -214,7 +201,8 @@ impl Level {
         self.fft.multiply(&self.pressure, &mut self.deflection);
     }
 
-    fn solve(&mut self, limit: f64) -> Result<Reached, ContactError> {
+    /// Residual (m) that is reached, and in how many iterations.
+    fn solve(&mut self, limit: f64) -> Result<(f64, usize), ContactError> {
         const MOST: usize = 1000;
         let mut iterations = 0;
         self.multiply_pressure();
@@ -225,7 +213,7 @@ impl Level {
             let [open, penetration, pull] = self.advance(step);
             residual = open.max(penetration);
             if residual <= limit && pull == 0.0 {
-                return Ok(Reached { residual, iterations });
+                return Ok((residual, iterations));
             }
             let mut fresh_set = false;
             // The set is changed when its own equation is solved well enough to tell, the better the longer it takes.

@@ -103,13 +103,7 @@ impl Recording {
         check_beside(name, samples, speeds)?;
         speeds.iter().try_for_each(|&speed| check_positive(name, "shaft speed", speed))?;
         let at: Vec<f64> = (0..samples.len()).map(|i| i as f64).collect();
-        let mut turns = Vec::with_capacity(samples.len());
-        let mut turn = 0.0;
-        for (i, speed) in speeds.iter().enumerate() {
-            turn += if i == 0 { 0.0 } else { 0.5 * (speed + speeds[i - 1]) / rate };
-            turns.push(turn);
-        }
-        Self::at_equal_angles(name, samples, &at, &turns, rate)
+        Self::at_equal_angles(name, samples, &at, &turned(speeds, rate), rate)
     }
 
     /// The signal at equal shaft angles, `turns` of which were reached at the samples `at`.
@@ -117,21 +111,14 @@ impl Recording {
         check_samples(name, samples)?;
         let all = turns[turns.len() - 1];
         let speeds = (1..at.len()).map(|k| (turns[k] - turns[k - 1]) * rate / (at[k] - at[k - 1]));
-        let (low, high) = speeds.fold((f64::MAX, 0.0f64), |(l, h), s| (l.min(s), h.max(s)));
+        let [low, high] = statistics::extent(speeds);
         if high > WIDEST_SPEED_RANGE * low {
             let (name, limit) = (name.to_owned(), WIDEST_SPEED_RANGE);
             return Err(SizingError::SpeedRange { name, low, high, limit });
         }
         let samples_per_turn = (at[at.len() - 1] - at[0]) / all;
-        let mut k = 0;
-        let uniform = (0..(all * samples_per_turn) as usize).map(|i| {
-            let turn = i as f64 / samples_per_turn;
-            while k + 2 < turns.len() && turns[k + 1] <= turn {
-                k += 1;
-            }
-            let share = (turn - turns[k]) / (turns[k + 1] - turns[k]);
-            value_at(samples, at[k] + share * (at[k + 1] - at[k]))
-        });
+        let equal = equal_turns(turns, samples_per_turn).take((all * samples_per_turn) as usize);
+        let uniform = equal.map(|(k, share)| value_at(samples, at[k] + share * (at[k + 1] - at[k])));
         Self::new(name, uniform.collect(), rate, rate / samples_per_turn)
     }
 
@@ -259,7 +246,7 @@ fn check_samples(name: &str, samples: &[f64]) -> Result<(), SizingError> {
     if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
         return Err(SizingError::NotFinite { name, index, value: samples[index] });
     }
-    let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+    let [low, high] = statistics::extent(samples.iter().copied());
     if low == high {
         return Err(SizingError::Constant { name, count: samples.len(), value: low });
     }
@@ -289,7 +276,7 @@ fn in_runs_at(samples: &[f64], value: f64) -> usize {
 
 /// Rising edges through the middle of the range, in samples, interpolated; armed anew below a quarter of the range.
 fn rising_edges(tachometer: &[f64]) -> Vec<f64> {
-    let (low, high) = tachometer.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+    let [low, high] = statistics::extent(tachometer.iter().copied());
     let (middle, arm) = (0.5 * (low + high), 0.75 * low + 0.25 * high);
     let mut armed = false;
     let mut edges = Vec::new();
@@ -301,6 +288,28 @@ fn rising_edges(tachometer: &[f64]) -> Vec<f64> {
         }
     }
     edges
+}
+
+/// Turns of a shaft since the first of evenly spaced instants, `rate` a second, at which its speeds (Hz) are known.
+pub(crate) fn turned(speeds: &[f64], rate: f64) -> Vec<f64> {
+    let mut turns = vec![0.0; speeds.len()];
+    for k in 1..speeds.len() {
+        turns[k] = turns[k - 1] + 0.5 * (speeds[k] + speeds[k - 1]).abs() / rate;
+    }
+    turns
+}
+
+/// Where equal angles lie among ascending `turns`, `per_turn` to a turn: behind which of these, and by which share of
+/// the way to the next.
+pub(crate) fn equal_turns(turns: &[f64], per_turn: f64) -> impl Iterator<Item = (usize, f64)> {
+    let mut k = 0;
+    (0..).map(move |i| {
+        let turn = f64::from(i) / per_turn;
+        while k + 2 < turns.len() && turns[k + 1] <= turn {
+            k += 1;
+        }
+        (k, (turn - turns[k]) / (turns[k + 1] - turns[k]))
+    })
 }
 
 /// The signal between samples, by the cubic through four neighbours (Catmull–Rom); 0 outside.

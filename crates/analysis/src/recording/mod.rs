@@ -15,4 +15,4 @@ pub use csv::TextFormat;
 pub use error::SizingError;
 pub use sampling_times::Uneven;
 
-pub(crate) use checked::value_at;
+pub(crate) use checked::{equal_turns, turned, value_at};

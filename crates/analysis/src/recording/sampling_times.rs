@@ -33,7 +33,7 @@ const SIDE: usize = 8;
 #[non_exhaustive]
 #[allow(missing_docs)]
 pub enum Uneven {
-    /// A time is no number.
+    /// A time is infinite or not a number.
     #[error("the time of sample {index} is {value}: times must be finite")]
     NotFinite { index: usize, value: f64 },
     /// Samples are missing.

@@ -241,7 +241,7 @@ impl Grid {
 
     /// Impacts in the mean of the chosen rows, without echoes.
     fn classified(&self, envelopes: &[Vec<f64>], chosen: &[usize]) -> Classified {
-        let level = decibels(statistics::average_of(envelopes, chosen));
+        let level = decibels(fold::average(chosen.iter().map(|&k| &envelopes[k])));
         let impacts = events::impacts(&level, self.width, self.smallest, self.turns);
         events::classify_echoes(impacts, envelopes, chosen, self.width, self.rate, self.turns)
     }
@@ -284,8 +284,8 @@ impl Picked {
 impl Rows {
     /// Entry, and the travel from it to the last impact (degrees), in the average over the chosen rows.
     fn travel(&self, picked: &Picked, chosen: &[usize], grid: &Grid) -> Option<(Entry, f64)> {
-        let signal = statistics::average_of(&self.signal, chosen);
-        let level = decibels(statistics::average_of(&self.envelope, chosen));
+        let average = |rows: &[Vec<f64>]| fold::average(chosen.iter().map(|&k| &rows[k]));
+        let (signal, level) = (average(&self.signal), decibels(average(&self.envelope)));
         let reach = (0.4 * grid.degree) as usize;
         let impact = events::jump_near(&level, grid.width, picked.impact, reach);
         let last = events::jump_near(&level, grid.width, picked.last, reach);

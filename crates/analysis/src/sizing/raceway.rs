@@ -31,14 +31,6 @@ impl Raceway {
         if fault == Fault::Inner { Self::Inner } else { Self::Outer }
     }
 
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Outer => "outer",
-            Self::Inner => "inner",
-        }
-    }
-
     /// Radius (m).
     pub fn radius(self, bearing: &Bearing) -> f64 {
         match self {

@@ -1,15 +1,16 @@
 //! What sizing reports: the answer first, then what it rests on.
 
-use crate::spectra::{CombsReport, Fault, Grade};
+use crate::spectra::{Combs, Fault, Grade};
 use serde::Serialize;
 
 /// Whether there is a length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// There is.
     Resolved,
     /// There is none, and `reason` says why.
+    #[default]
     Unresolved,
 }
 
@@ -24,7 +25,7 @@ pub enum Standing {
 }
 
 /// What kind of spall it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Shorter than the element spacing.
@@ -33,6 +34,7 @@ pub enum Kind {
     Extended,
     /// Either: an extended spall sounds like a line spall one spacing shorter, unless the rig's stiffness
     /// differs.
+    #[default]
     Undecided,
 }
 
@@ -47,7 +49,7 @@ pub enum Method {
 }
 
 /// The answer for all recordings together.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Report {
     /// Whether there is a length.
     pub verdict: Verdict,
@@ -105,7 +107,7 @@ pub struct RecordingReport {
     /// What speaks against it, or for another speed.
     pub speaks_against: Vec<String>,
     /// The combs, beside each other.
-    pub combs: CombsReport,
+    pub combs: Combs,
     /// Length [degrees of the raceway of that fault].
     pub length_deg: Option<f64>,
     /// Half-width of its 95 % interval (degrees).

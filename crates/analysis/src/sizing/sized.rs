@@ -11,6 +11,7 @@ use super::waveform::Ringing;
 use crate::sizing::waveform::{CUT, Maps, Mismatch, Rig, WaveformLength, waveform_length};
 use crate::spectra::Fault;
 use crate::spectrum::{Band, Spectrum};
+use crate::statistics::rms;
 use brinell::scene::Scene;
 
 /// Coverage factor of the stated interval: 95 % of a normal distribution.
@@ -112,7 +113,7 @@ impl Sized {
             grade: self.measured.grade,
             speaks_for,
             speaks_against,
-            combs: self.measured.combs.report(),
+            combs: self.measured.combs,
             length_deg: length.map(|l| l.length),
             uncertainty_deg: length.map(|l| COVERAGE * l.statistical.hypot(l.systematic).hypot(FLOOR)),
             method: length.map(|l| l.method),
@@ -176,9 +177,8 @@ impl Sized {
         let [angle, signal, level] = event_length::averaged_passage(measured, from);
         let rate = measured.pass_frequency * signal.len() as f64;
         let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.pass_frequency, high: CUT });
-        let norm = |signal: &[f64]| (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
         let model = self.waveform.as_ref().map(|w| {
-            let scale = norm(&low) / norm(&w.model);
+            let scale = rms(&low) / rms(&w.model);
             let share = |degrees: f64| ((degrees + from) / measured.spacing).rem_euclid(1.0);
             let point = |degrees: f64| (share(degrees) * w.model.len() as f64) as usize % w.model.len();
             angle.iter().map(|&degrees| scale * w.model[point(degrees)]).collect()

@@ -12,7 +12,7 @@
 use super::combined::{self, Combined, Wandering};
 use super::measured::Measured;
 use super::raceway::Raceway;
-use super::report::{Kind, RecordingReport, Report, Verdict};
+use super::report::{RecordingReport, Report, Verdict};
 use super::sized::{COVERAGE, Length, Sized};
 use crate::recording::{Recording, SizingError};
 use crate::sizing::waveform::Maps;
@@ -71,24 +71,13 @@ pub fn size_with(
         .collect();
     let first = sized.first().ok_or(SizingError::NoRecordings)?;
     let mut report = Report {
-        verdict: Verdict::Unresolved,
-        standing: None,
         fault: combined::common_fault(&sized),
-        length_mm: None,
-        length_deg: None,
-        at_least_deg: None,
-        uncertainty_mm: None,
-        kind: Kind::Undecided,
         bpfo_hz: first.measured.bpfo,
         slip: statistics::mean(&sized.iter().map(|s| s.measured.slip).collect::<Vec<_>>()),
         passages: sized.iter().map(|s| s.measured.passages.starts.len()).sum(),
-        reason: String::new(),
-        method: None,
-        critical_load_n: None,
-        critical_load_reason: None,
-        critical_depth_um: None,
         recordings: sized.iter().map(Sized::report).collect(),
         figures: sized.iter().map(|s| s.figure(scene)).collect(),
+        ..Report::default()
     };
     let lengths: Vec<&Length> = sized.iter().filter_map(|s| s.length.as_ref().ok()).collect();
     let onset = combined::steady_onset(&sized);

@@ -9,6 +9,7 @@
 use super::lines::{LOBE, Lines, steps};
 use crate::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics::Frequencies;
+use serde::Serialize;
 
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
 /// speed.
@@ -23,17 +24,20 @@ const OTHER: f64 = 0.02;
 const COUNTED: usize = 2;
 
 /// A comb of harmonics in the envelope's spectrum.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Comb {
     /// Its frequency (Hz).
+    #[serde(rename = "frequency_hz")]
     pub frequency: f64,
-    /// Share of the variance of the envelope's logarithm that repeats at it.
+    /// Share of the variance of the envelope's logarithm that repeats at it, mean of the two octaves with most.
     pub share: f64,
     /// The same without the lines of the strongest comb; equal for that one itself.
     pub alone: f64,
     /// What noise alone has there.
+    #[serde(skip)]
     pub noise: f64,
     /// The band whose envelope shows it best (Hz).
+    #[serde(skip)]
     pub band: Band,
 }
 
@@ -50,7 +54,7 @@ pub(crate) fn bands(rate: f64, bpfo: f64) -> Vec<Band> {
 }
 
 /// The strongest comb of each kind of fault.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Combs {
     /// Near BPFO.
     pub outer: Comb,
@@ -59,10 +63,13 @@ pub struct Combs {
     /// Near 2 BSF.
     pub element: Comb,
     /// The strongest comb at half to twice these frequencies that is not related to the strongest of the three.
+    #[serde(skip)]
     pub(crate) elsewhere: Comb,
     /// Of the share of the strongest of the three what harmonics hold that are no multiples of 2, and of 3.
+    #[serde(skip)]
     pub(crate) between_multiples: [f64; 2],
     /// The strongest at half or a third of that one's frequency, of what is left without it.
+    #[serde(skip)]
     pub(crate) between: Comb,
 }
 

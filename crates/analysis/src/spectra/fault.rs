@@ -4,7 +4,7 @@ use super::combs::{Comb, Combs};
 use serde::Serialize;
 
 /// Part of the bearing that seems to be damaged, by a recording's combs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fault {
     /// The outer raceway.
@@ -17,6 +17,7 @@ pub enum Fault {
     Undecided,
     /// Nothing of the bearing repeats, or nothing is more similar to the recording than the scene's bearing without a
     /// spall.
+    #[default]
     None,
 }
 
@@ -57,28 +58,6 @@ impl Grade {
             Self::None => "no fault found",
         }
     }
-}
-
-/// A comb of harmonics in the envelope's spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CombReport {
-    /// Its frequency (Hz).
-    pub frequency_hz: f64,
-    /// Share of the variance of the envelope's logarithm that repeats at it, mean of the two octaves with most.
-    pub share: f64,
-    /// The same without the lines of the strongest comb.
-    pub alone: f64,
-}
-
-/// The combs of the three kinds of fault.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CombsReport {
-    /// At BPFO.
-    pub outer: CombReport,
-    /// At BPFI.
-    pub inner: CombReport,
-    /// At twice the BSF.
-    pub element: CombReport,
 }
 
 /// Share of the variance from which a fault is there: of recorded healthy machines at most 0.036 repeats at a
@@ -150,12 +129,6 @@ impl Combs {
     /// The strongest.
     pub fn strongest(&self) -> &Comb {
         self.leader_and_rival()[0].1
-    }
-
-    /// As reported.
-    pub fn report(&self) -> CombsReport {
-        let of = |comb: &Comb| CombReport { frequency_hz: comb.frequency, share: comb.share, alone: comb.alone };
-        CombsReport { outer: of(&self.outer), inner: of(&self.inner), element: of(&self.element) }
     }
 
     /// In words.

@@ -278,18 +278,13 @@ fn poles(lines: &[Line], count: usize) -> Option<Vec<[f64; 2]>> {
     let spread = |k: usize| (lowest + (highest - lowest) * (k as f64 + 0.5) / count as f64) / highest;
     let mut poles: Vec<c64> = (0..count).map(|k| c64::new(-FIRST_DAMPING * spread(k), spread(k))).collect();
     for _ in 0..ITERATIONS {
-        let mut rows = Vec::with_capacity(2 * lines.len());
-        let mut known = Vec::with_capacity(2 * lines.len());
-        for Line { frequency, value } in lines {
+        let equation = |Line { frequency, value }: &Line| {
             let s = c64::new(0.0, frequency / highest);
             let basis: Vec<c64> = poles.iter().flat_map(|pole| fractions(s, *pole)).collect();
             let unknown = basis.iter().copied().chain([c64::new(1.0, 0.0)]).chain(basis.iter().map(|of| -of * value));
-            let unknown: Vec<c64> = unknown.collect();
-            rows.push(unknown.iter().map(|of| of.re).collect());
-            rows.push(unknown.iter().map(|of| of.im).collect());
-            known.extend([value.re, value.im]);
-        }
-        let found = least_squares(&rows, &known).ok()?;
+            (unknown.collect(), *value)
+        };
+        let found = nearest_real(lines.iter().map(equation))?;
         let next = zeros(&poles, &found[2 * count + 1..])?;
         let moved = poles.iter().zip(&next).map(|(one, other)| (one - other).norm()).fold(0.0, f64::max);
         poles = next;
@@ -332,20 +327,26 @@ fn zeros(poles: &[c64], weights: &[f64]) -> Option<Vec<c64>> {
     (next.len() == poles.len() && next.iter().all(|pole| pole.norm().is_finite())).then_some(next)
 }
 
+/// Real numbers whose sum with these complex weights comes nearest to a complex number, in all of the equations.
+fn nearest_real(equations: impl Iterator<Item = (Vec<c64>, c64)>) -> Option<Vec<f64>> {
+    let (mut rows, mut known) = (Vec::new(), Vec::new());
+    for (weights, value) in equations {
+        rows.push(weights.iter().map(|of| of.re).collect());
+        rows.push(weights.iter().map(|of| of.im).collect());
+        known.extend([value.re, value.im]);
+    }
+    least_squares(&rows, &known).ok()
+}
+
 /// Modes of these ω and ζ with the gains that come nearest, and, `with_constant`, what the response has beside them at
 /// all frequencies.
 fn gains(lines: &[Line], poles: &[[f64; 2]], with_constant: bool) -> Option<(Vec<SensorMode>, f64)> {
-    let mut rows = Vec::with_capacity(2 * lines.len());
-    let mut known = Vec::with_capacity(2 * lines.len());
-    for Line { frequency, value } in lines {
+    let equation = |Line { frequency, value }: &Line| {
         let s = c64::new(0.0, TAU * frequency);
         let constant = with_constant.then_some(c64::new(1.0, 0.0));
-        let columns: Vec<c64> = poles.iter().flat_map(|pole| columns_of(s, *pole)).chain(constant).collect();
-        rows.push(columns.iter().map(|of| of.re).collect());
-        rows.push(columns.iter().map(|of| of.im).collect());
-        known.extend([value.re - 1.0, value.im]);
-    }
-    let found = least_squares(&rows, &known).ok()?;
+        (poles.iter().flat_map(|pole| columns_of(s, *pole)).chain(constant).collect(), value - 1.0)
+    };
+    let found = nearest_real(lines.iter().map(equation))?;
     let modes =
         poles.iter().zip(found.as_chunks::<2>().0).map(|([frequency, damping_ratio], [gain, quadrature])| SensorMode {
             frequency: frequency / TAU,

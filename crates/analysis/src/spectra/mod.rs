@@ -13,7 +13,7 @@ mod strengths;
 
 pub use combs::{Comb, Combs};
 pub use envelope_spectrum::EnvelopeSpectrum;
-pub use fault::{CombReport, CombsReport, EXISTS, Fault, Grade};
+pub use fault::{EXISTS, Fault, Grade};
 pub use found_speed::{PLAUSIBLE, find_speed};
 pub use frequency_response::{Fit, FrequencyResponse, ResponseError, response};
 pub use order_spectrum::{EvenAngles, OrderSpectrum};

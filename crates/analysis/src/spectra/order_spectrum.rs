@@ -8,7 +8,7 @@
 //! A(o) = 2/Σw |Σ w x exp(−2πi o θ/2π)|,   w Hann's window over the turns
 //! ```
 
-use crate::recording::value_at;
+use crate::recording::{equal_turns, turned, value_at};
 use crate::{spectrum, statistics};
 
 /// Slowest speed over the fastest that is used.
@@ -43,24 +43,15 @@ impl EvenAngles {
             from += run.len();
         }
         let used = &speeds[best.clone()];
-        let mut turns = vec![0.0; used.len()];
-        for k in 1..used.len() {
-            turns[k] = turns[k - 1] + 0.5 * (used[k] + used[k - 1]).abs() / rate;
-        }
+        let turns = turned(used, rate);
         let all = *turns.last()?;
         if !(all >= FEWEST_TURNS) {
             return None;
         }
         let slowest = used.iter().fold(f64::MAX, |least, speed| least.min(speed.abs()));
         let per_turn = rate / slowest;
-        let mut k = 0;
-        let at = (0..=(all * per_turn) as usize).map(|i| {
-            let turn = i as f64 / per_turn;
-            while k + 2 < turns.len() && turns[k + 1] <= turn {
-                k += 1;
-            }
-            (best.start + k) as f64 + ((turn - turns[k]) / (turns[k + 1] - turns[k])).min(1.0)
-        });
+        let equal = equal_turns(&turns, per_turn).take((all * per_turn) as usize + 1);
+        let at = equal.map(|(k, share)| (best.start + k) as f64 + share.min(1.0));
         Some(Self { at: at.collect(), per_turn, mean_speed: all * rate / (used.len() - 1) as f64 })
     }
 

@@ -5,8 +5,7 @@
 //! and the tilts about x and y make it 5 × 5. It is symmetric up to the product of tilt and moment, as moments are
 //! about axes that stand.
 
-use super::{StaticError, evenly_spaced, surfaces_and_map};
-use brinell::dynamics::contacts::Forces;
+use super::{InBalance, StaticError, evenly_spaced, in_balance, surfaces_and_map};
 use brinell::dynamics::parameters::{COORDINATES, Excitation, Layout, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{AxialSupport, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, TiltSupport};
@@ -111,13 +110,7 @@ impl BearingInSpace {
         let frames = [self.scene.shaft_initial_angle, self.scene.housing_initial_angle, spin];
         let load = [shaft.loads().map(Quadratic::constant), Default::default()];
         let excitation = Excitation { load, ..Excitation::standing(cage_angle, frames) };
-        let mut state = vec![0.0; model.layout.len];
-        let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(|cause| {
-            let [x, y, z, ..] = shaft.loads();
-            StaticError::Equilibrium { cage_angle_deg: cage_angle.to_degrees(), load: [x, y, z], cause }
-        })?;
-        let mut forces = Forces::of(model);
-        model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let InBalance { cells, state, mut forces } = in_balance(model, &excitation)?;
         let found = model.stiffness_in_space(&excitation, (&cells, &state), &forces.contacts, &mut forces.shortcuts);
         let (Some(space), Some(mut stiffness), Some(start)) = (&model.space, found, model.layout.shaft) else {
             return Err(StaticError::InThePlane);

@@ -12,5 +12,5 @@ pub use load_rating::{dynamic_rating, static_rating};
 pub use static_bearing::{Balance, LoadedElement, StaticBearing, StaticError};
 pub use stiffness::{min_mean_max, sweep};
 
-pub(crate) use static_bearing::surfaces_and_map;
+pub(crate) use static_bearing::{InBalance, in_balance, surfaces_and_map};
 pub(crate) use stiffness::{evenly_spaced, with_changes};

@@ -17,7 +17,7 @@
 use brinell::contact::map::ContactMaps;
 use brinell::dynamics::contacts::Forces;
 use brinell::dynamics::equilibrium::EquilibriumError;
-use brinell::dynamics::parameters::{Excitation, Model, Quadratic, WholeAngle};
+use brinell::dynamics::parameters::{Cells, Excitation, Model, Quadratic, WholeAngle};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, DegreesOfFreedom, ElementInertia, Motion, Ring, Scene, SceneError};
 use brinell::simulation::SimulationError;
@@ -230,12 +230,7 @@ impl StaticBearing {
         let on_shaft = [x, y, 0.0, 0.0, 0.0].map(Quadratic::constant);
         let excitation =
             Excitation { load: [on_shaft, Default::default()], ..Excitation::standing(cage_angle, frames) };
-        let mut state = vec![0.0; model.layout.len];
-        let cage_angle_deg = cage_angle.to_degrees();
-        let refused = |cause| StaticError::Equilibrium { cage_angle_deg, load: [x, y, 0.0], cause };
-        let cells = model.equilibrium_with_cells(&excitation, &mut state).map_err(refused)?;
-        let mut forces = Forces::of(model);
-        model.derivative(&excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+        let InBalance { cells, state, mut forces } = in_balance(model, &excitation)?;
         let displacement = model.shaft_state(&excitation, 0.0, &state).position;
         let paths = &state[..model.element_count];
         let jacobian =
@@ -367,6 +362,28 @@ fn load_zone(clearance: f64, displacement: [f64; 2]) -> f64 {
         return if clearance > 0.0 { 0.0 } else { PI };
     }
     libm::acos(clearance / length)
+}
+
+/// A model in equilibrium: the cells of its contacts, its state, and forces there.
+pub(crate) struct InBalance {
+    pub(crate) cells: Cells,
+    pub(crate) state: Vec<f64>,
+    pub(crate) forces: Forces,
+}
+
+/// The equilibrium of a model under an excitation that stands.
+///
+/// # Errors
+/// No equilibrium.
+pub(crate) fn in_balance(model: &Model, excitation: &Excitation) -> Result<InBalance, StaticError> {
+    let mut state = vec![0.0; model.layout.len];
+    let cage_angle_deg = excitation.cage_start.to_degrees();
+    let load = [0, 1, 2].map(|axis| excitation.load[0][axis].at(0.0));
+    let refused = |cause| StaticError::Equilibrium { cage_angle_deg, load, cause };
+    let cells = model.equilibrium_with_cells(excitation, &mut state).map_err(refused)?;
+    let mut forces = Forces::of(model);
+    model.derivative(excitation, 0.0, &cells, &state, &mut vec![0.0; state.len()], &mut forces);
+    Ok(InBalance { cells, state, forces })
 }
 
 /// The surfaces of a scene's defects, and the contact map of these bytes if there is anything to look up in it.

@@ -56,7 +56,7 @@ pub(crate) fn find_break(rows: &[Vec<f64>]) -> Option<Break> {
 /// How many times the same passes within a period, if it is more than once.
 pub(crate) fn times_a_period(rows: &[Vec<f64>]) -> Option<usize> {
     // Odd and even passages: noise in the one is none in the other.
-    let every_other = |k: usize| level(&rows.iter().skip(k).step_by(2).cloned().collect::<Vec<_>>());
+    let every_other = |k: usize| level(rows.iter().skip(k).step_by(2));
     let (a, b) = (every_other(0), every_other(1));
     let same = correlation(&a, &b, 0);
     let alike = |parts: &usize| (1..*parts).all(|k| correlation(&a, &b, k * a.len() / parts) > ALIKE * same);
@@ -64,7 +64,7 @@ pub(crate) fn times_a_period(rows: &[Vec<f64>]) -> Option<usize> {
 }
 
 /// The mean envelope's logarithm, normalized to mean 0 and mean square 1.
-fn level(rows: &[Vec<f64>]) -> Vec<f64> {
+fn level<'a>(rows: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<f64> {
     let mut level = fold::average(rows);
     level.iter_mut().for_each(|x| *x = libm::log(x.max(f64::MIN_POSITIVE)));
     let (middle, deviation) = (statistics::mean(&level), statistics::deviation(&level));

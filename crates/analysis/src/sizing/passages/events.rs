@@ -155,7 +155,6 @@ fn vertex(values: &[f64], i: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics;
     use crate::statistics::Random;
 
     /// Points of a passage, and per second.
@@ -177,7 +176,7 @@ mod tests {
         };
         let rows: Vec<Vec<f64>> = (0..60).map(|_| row()).collect();
         let chosen: Vec<usize> = (0..60).collect();
-        let mean = statistics::average_of(&rows, &chosen);
+        let mean = crate::sizing::passages::fold::average(chosen.iter().map(|&k| &rows[k]));
         let level: Vec<f64> = mean.iter().map(|x| 20.0 * libm::log10(*x)).collect();
         // The first impact rises by 40 dB, and what follows must by a third of the steepest: 6 dB is not enough.
         let impacts = impacts(&level, WIDTH, 3.0, false);

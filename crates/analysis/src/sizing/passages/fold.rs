@@ -197,14 +197,14 @@ pub fn mean(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<f
 }
 
 /// Mean of the rows, point by point.
-pub fn average(rows: &[Vec<f64>]) -> Vec<f64> {
-    let mut sum = vec![0.0; rows.first().map_or(0, Vec::len)];
+pub fn average<'a>(rows: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<f64> {
+    let (mut sum, mut count) = (Vec::new(), 0.0);
     for row in rows {
-        for (s, x) in sum.iter_mut().zip(row) {
-            *s += x;
-        }
+        sum.resize(row.len(), 0.0);
+        sum.iter_mut().zip(row).for_each(|(s, x)| *s += x);
+        count += 1.0;
     }
-    sum.iter_mut().for_each(|s| *s /= rows.len() as f64);
+    sum.iter_mut().for_each(|s| *s /= count);
     sum
 }
 

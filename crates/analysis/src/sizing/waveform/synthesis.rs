@@ -107,17 +107,11 @@ impl<'a> Rig<'a> {
             scene.tolerance = scene.tolerance.max(ROUGH);
         }
         let mut simulation = Simulation::with_map(scene, None, map.as_deref())?;
-        let shown = simulation.scene().sensor_variable(0);
-        let sensor = simulation.reference(&shown).map_err(SimulationError::from)?;
+        let sensor = simulation.scene().sensor_variable(0);
         simulation.initialize(0.0)?;
         let count = (passages.end as f64 * self.rate / self.bpfo) as usize + 4;
-        let mut signal = Vec::with_capacity(count);
-        let mut value = [0.0];
-        for _ in 0..count {
-            simulation.step(1.0 / self.rate)?;
-            simulation.reals(&[sensor], &mut value)?;
-            signal.push(value[0]);
-        }
+        let samples = simulation.samples(&[&sensor], 1.0 / self.rate)?.skip(1).take(count);
+        let signal = samples.map(|sample| Ok(sample?.values[0])).collect::<Result<Vec<f64>, SimulationError>>()?;
         let period = self.rate / self.bpfo;
         let starts: Vec<f64> = passages.map(|i| i as f64 * period).collect();
         Ok(below_cut(&fold::mean(&signal, &starts, period, POINTS), self.bpfo))

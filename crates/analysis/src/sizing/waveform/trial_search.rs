@@ -79,7 +79,7 @@ impl Search<'_> {
     /// The same by a law that minds the contact's width and so shifts the edges, with two runs of it: a map is dear.
     ///
     /// How long a run by that law seems to be when measured with the cheap law's runs says how much that law errs.
-    pub(super) fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<OwnLaw> {
+    pub(super) fn with_law(&self, peak: &Peak, law: ContactLaw) -> Option<Fit> {
         // The map is the grid's law, computed beforehand.
         let law = if law == ContactLaw::Love { ContactLaw::Map } else { law };
         if law == ContactLaw::Hertz {
@@ -98,7 +98,7 @@ impl Search<'_> {
             passage = self.rig.passage(trial(length, law), Run::Long).ok()?;
             length = (length - (top(&ruler, &passage)?.length - seems)).max(FINE);
         }
-        Some(OwnLaw { length, similarity: similarity(self.target, &passage), passage })
+        Some(Fit { trial: trial(length, law), similarity: similarity(self.target, &passage), passage })
     }
 
     /// The trials in the order of their similarity; those that cannot be simulated are left out.
@@ -117,13 +117,6 @@ impl Search<'_> {
 /// Whether two trials of a climb are one, except for rounding of the steps that led to them.
 fn is_same(one: &Trial, other: &Trial) -> bool {
     (one.length - other.length).abs() < 1e-9 && (one.depth / other.depth - 1.0).abs() < 1e-9
-}
-
-/// The answer by the scene's own law.
-pub(super) struct OwnLaw {
-    pub(crate) length: f64,
-    pub(crate) similarity: f64,
-    pub(crate) passage: Vec<f64>,
 }
 
 /// The top of similarity over length at one depth.

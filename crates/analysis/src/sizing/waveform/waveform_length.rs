@@ -12,7 +12,7 @@
 //! [`synthesis`]: super::synthesis
 
 use super::synthesis::{POINTS, Rig, Run, Trial, below_cut, best_shift, similarity};
-use super::trial_search::{FINE, Fit, OwnLaw, Peak, Search, lengths, top};
+use super::trial_search::{FINE, Fit, Peak, Search, lengths, top};
 use crate::sizing::measured::Measured;
 use crate::sizing::passages::{RESAMPLINGS, fold};
 use crate::sizing::raceway;
@@ -146,17 +146,15 @@ fn search(
         .collect();
     let likest = peaks.iter().map(|p| p.similarity).fold(0.0, f64::max);
     peaks.retain(|p| p.similarity >= as_good_as(likest));
-    let range = peaks.iter().fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p.length), h.max(p.length)));
+    let [shortest, longest] = statistics::extent(peaks.iter().map(|peak| peak.length));
     // The first is the usual depth, if it is as good: a depth that elements do not reach leaves no trace.
     let cheap = peaks.into_iter().next()?;
     // Below what can be resolved the law's last tenth of a degree decides nothing, and its map is dear.
     let short = raceway::shortest_length(scene, Raceway::Outer).is_some_and(|limit| cheap.length + 2.0 * FINE < limit);
     let own = if short { None } else { search.with_law(&cheap, scene.contact.law) };
-    let best = own.unwrap_or_else(|| OwnLaw {
-        length: cheap.length,
-        similarity: cheap.similarity,
-        passage: cheap.fits[cheap.top].passage.clone(),
-    });
+    // Of the cheap law the most alike passage; its length lies between trials.
+    let length = own.as_ref().map_or(cheap.length, |own| own.trial.length);
+    let best = own.unwrap_or_else(|| cheap.fits[cheap.top].clone());
     tried.best = tried.best.max(likest).max(best.similarity);
     tried.decisive = Some(best.similarity);
     if best.similarity < LIKE {
@@ -164,18 +162,17 @@ fn search(
     }
     let of_kind = |extended: bool| {
         let all = found.iter().filter(|f| (f.trial.length > spacing) == extended);
-        all.map(|f| f.similarity)
-            .fold(if (best.length > spacing) == extended { best.similarity } else { 0.0 }, f64::max)
+        all.map(|f| f.similarity).fold(if (length > spacing) == extended { best.similarity } else { 0.0 }, f64::max)
     };
     let shift = best_shift(search.target, &best.passage).shift;
     Some(WaveformLength {
-        length: best.length,
+        length,
         depth: cheap.depth,
         statistical: bootstrap(rows, measured.bpfo, &cheap),
-        systematic: 0.5 * (range.1 - range.0) / 3f64.sqrt(),
+        systematic: 0.5 * (longest - shortest) / 3f64.sqrt(),
         similarity: best.similarity,
         by_kind: [of_kind(false), of_kind(true)],
-        entry: (shift - 0.5 * best.length / spacing).rem_euclid(1.0),
+        entry: (shift - 0.5 * length / spacing).rem_euclid(1.0),
         model: moved_over(search.target, &best.passage, shift),
     })
 }
