@@ -46,9 +46,7 @@ fn libraries(project: &Project, folder: &Path) -> Result<PathBuf> {
     let library = Library::obtain(project, &all)?;
     for (binary, line) in library.binaries().iter().zip(library.describe()) {
         let file = folder.join(binary.platform.file());
-        if !fs::read(&file).is_ok_and(|there| there == binary.bytes) {
-            whole_file::write(&file, &binary.bytes)?;
-        }
+        whole_file::write_if_new(&file, &binary.bytes)?;
         println!("{line}");
     }
     Ok(std::path::absolute(folder)?)

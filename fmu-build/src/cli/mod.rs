@@ -13,7 +13,7 @@ use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes,
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Interface, Kind, Project, Version, talk};
 use crate::{paper, run, sweep};
-use options::{Build, Check, Contact, Demo, OverCageAngle, Run, Size, Sweep};
+use options::{Build, Check, Demo, OverCageAngle, Run};
 use shipped_options::{Catalogue, New, Paper, Scenes};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
@@ -52,7 +52,7 @@ pub enum Command {
     /// Simulates a scene without a host and writes its signals, a figure, sound, an HTML page
     Run(Run),
     /// Runs a scene thousands of times over grids and random values, on all cores: one Parquet table
-    Sweep(Sweep),
+    Sweep(sweep::Asked),
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
@@ -60,9 +60,9 @@ pub enum Command {
     /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
     Modes(OverCageAngle),
     /// Pressure of one ball on a raceway as measured, and the stresses below: JSON on standard output, CSV, figure
-    Contact(Contact),
+    Contact(contact::Contact),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
-    Size(Size),
+    Size(size::Size),
     /// Builds the FMU of a spalled 6205 bearing, drives it with fmpy and draws what happens
     Demo(Demo),
     /// A figure or table of the paper behind the model, computed anew: each claim with its outcome
@@ -102,16 +102,7 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, &wanted, &folder)
             }
-            Command::Sweep(options) => {
-                if let Some(run) = options.scene_of {
-                    return sweep::print_scene(&options.file, run);
-                }
-                let wanted = options.options();
-                let folder = options.output.unwrap_or_else(|| {
-                    project.results("sweep").join(options.file.file_stem().unwrap_or_else(|| "sweep".as_ref()))
-                });
-                sweep::command(project, &options.file, &wanted, &folder)
-            }
+            Command::Sweep(options) => sweep::command(project, &options),
             Command::Check(options) => check::command(project, &options.fmu, options.json),
             Command::Stiffness(options) => {
                 let folder = options.drawn.folder(project, "stiffness");
@@ -121,18 +112,8 @@ impl Command {
                 let folder = options.drawn.folder(project, "modes");
                 modes::command(project, &Model::read(&options.scene)?, options.options(), &folder)
             }
-            Command::Contact(options) => {
-                let wanted = contact::Options {
-                    on: options.on,
-                    angle_deg: options.angle,
-                    force: options.force,
-                    resolution: options.resolution,
-                    pressure_limit: options.pressure_limit,
-                    figure: !options.drawn.no_figure,
-                };
-                contact::command(project, &options.scene, &wanted, &options.drawn.folder(project, "contact"))
-            }
-            Command::Size(options) => size(project, options),
+            Command::Contact(options) => contact::command(project, &options),
+            Command::Size(options) => size::command(project, &options),
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.into(), &folder)
@@ -205,17 +186,4 @@ fn new(options: &New) -> Result<()> {
         None => new_scene::sweep(options.name.as_deref().unwrap_or("sweep"), &folder),
         Some(asked) => new_scene::command(options.name.as_deref(), &options.bearing, asked, &folder),
     }
-}
-
-fn size(project: &Project, options: Size) -> Result<()> {
-    let wanted = size::Options {
-        rate: options.rate,
-        speeds: options.speeds(),
-        channel: options.channel.clone(),
-        text: options.text(),
-        report: options.report.clone(),
-        figure: !options.drawn.no_figure,
-    };
-    let folder = options.drawn.folder(project, "size");
-    size::command(project, &options.bearing(), &options.recordings, &wanted, &folder)
 }

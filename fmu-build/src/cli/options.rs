@@ -5,18 +5,16 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use brinell::scene::Experiment;
-use brinell_analysis::recording::{Speed, TextFormat};
 use clap::Args;
 
-use crate::commands::size::ShaftSpeed;
-use crate::commands::{Asked, Spall, contact, new_scene, size, stiffness};
+use crate::commands::{Asked, Spall, new_scene, stiffness};
 use crate::package::{Model, library};
+use crate::run;
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Kind, Names, Project, Version, delimiter, gigapascals, html_file, number, seed, whole};
-use crate::{run, sweep};
+use crate::shared::{Drawn, Grid, Kind, Names, Version, number, seed, whole};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -154,39 +152,6 @@ impl Run {
     }
 }
 
-/// Options of `sweep`.
-#[derive(Debug, Args)]
-pub struct Sweep {
-    /// File of the sweep (TOML): which scene is run, and what changes from run to run
-    pub(super) file: PathBuf,
-    /// Folder for the table; a sweep that was interrupted goes on in it [default: named after the file]
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Runs at once [default: as many as there are cores]
-    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 4096>)]
-    pub(super) jobs: Option<u32>,
-    /// Write the signals of the runs as well [default format: npy]
-    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
-    pub(super) signals: Option<sweep::SignalFormat>,
-    /// Make part K of N only, on any machine; the same command without it joins all parts in the folder
-    #[arg(long, value_name = "K/N")]
-    pub(super) part: Option<sweep::Part>,
-    /// Print the scene of one run, which `brinell run` takes, and run nothing
-    #[arg(long, value_name = "RUN", allow_negative_numbers = true, value_parser = seed)]
-    pub(super) scene_of: Option<u64>,
-}
-
-impl Sweep {
-    pub(super) fn options(&self) -> sweep::Options {
-        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        sweep::Options {
-            jobs: self.jobs.map_or_else(cores, |jobs| jobs as usize),
-            signals: self.signals,
-            part: self.part,
-        }
-    }
-}
-
 /// Options of `check`.
 #[derive(Debug, Args)]
 pub struct Check {
@@ -222,136 +187,6 @@ impl OverCageAngle {
     pub(super) fn options(&self) -> stiffness::Options {
         let points = self.points.map(|count| count as usize);
         stiffness::Options { load: self.load, points, figure: !self.drawn.no_figure, json: self.json }
-    }
-}
-
-/// Where results go, and whether they are drawn.
-#[derive(Debug, Args)]
-pub(super) struct Drawn {
-    /// Folder for what is written [default: the current one]
-    #[arg(short, long, value_name = "DIR")]
-    pub(super) output: Option<PathBuf>,
-    /// Leave figures out; no Python is needed then
-    #[arg(long)]
-    pub(super) no_figure: bool,
-}
-
-impl Drawn {
-    /// The folder; `results` is the one of the command.
-    pub(super) fn folder(&self, project: &Project, results: &str) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| project.results(results))
-    }
-}
-
-/// Options of `contact`.
-#[derive(Debug, Args)]
-pub struct Contact {
-    /// Scene file (TOML) of a ball bearing, or the name of a shipped scene; nothing moves
-    pub(super) scene: PathBuf,
-    /// The raceway
-    #[arg(long, value_enum)]
-    pub(super) on: contact::On,
-    /// Angle of the ball in degrees from the middle of the raceway's first defect, counter-clockwise about the
-    /// bearing's axis in the ring's own frame: 0 is over the middle, half the defect's length over its end
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = number)]
-    pub(super) angle: f64,
-    /// Contact force in newtons
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    pub(super) force: f64,
-    /// Cells along and across the raceway, over the contact and a little more
-    #[arg(long, value_name = "CELLS", default_value_t = 512)]
-    pub(super) resolution: usize,
-    /// Largest pressure in GPa, from 1 to 20, at which the surface yields and stays dented: the indentation hardness, 6
-    /// to 7.5 of hardened bearing steel [default: none, the surface stays elastic]
-    #[arg(long = "yield", value_name = "GPA", allow_negative_numbers = true, value_parser = gigapascals)]
-    pub(super) pressure_limit: Option<f64>,
-    #[command(flatten)]
-    pub(super) drawn: Drawn,
-}
-
-/// Options of `size`.
-#[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("shaft").required(true))]
-#[command(group = clap::ArgGroup::new("which").required(true))]
-pub struct Size {
-    /// Recordings of one bearing: .csv, .txt, .npy, .npz, .mat or .wav
-    #[arg(required = true, value_name = "RECORDING")]
-    pub(super) recordings: Vec<PathBuf>,
-    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is ignored
-    #[arg(long, group = "which")]
-    pub(super) scene: Option<PathBuf>,
-    /// Instead of a scene a bearing that `brinell catalogue` lists; nothing is known of its rig
-    #[arg(long, value_name = "NAME", group = "which")]
-    pub(super) bearing: Option<String>,
-    /// Load of that bearing in newtons [default: 5 % of the static rating]
-    #[arg(long, value_name = "N", requires = "bearing", allow_negative_numbers = true, value_parser = number)]
-    pub(super) load: Option<f64>,
-    /// Sampling rate in hertz [default: the file's own]
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
-    pub(super) rate: Option<f64>,
-    /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas;
-    /// LOW..HIGH seeks it by the shaft's own lines, and auto from 5 to 60 Hz
-    #[arg(
-        long,
-        value_name = "HZ|LOW..HIGH|auto",
-        value_delimiter = ',',
-        group = "shaft",
-        allow_negative_numbers = true,
-        value_parser = size::shaft_speed,
-    )]
-    pub(super) speed: Vec<ShaftSpeed>,
-    /// Column of a tachometer, by name or by number from 1
-    #[arg(long, value_name = "COLUMN", group = "shaft")]
-    pub(super) tacho: Option<String>,
-    /// Pulses of the tachometer per shaft turn
-    #[arg(
-        long,
-        value_name = "COUNT",
-        default_value_t = 1,
-        allow_negative_numbers = true,
-        value_parser = whole::<1, 10_000>,
-    )]
-    pub(super) pulses: u32,
-    /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
-    #[arg(long, value_name = "COLUMN", group = "shaft")]
-    pub(super) speed_column: Option<String>,
-    /// Channel of the signal, by name or by number from 1, where a file has several
-    #[arg(long, value_name = "NAME|NUMBER", alias = "column")]
-    pub(super) channel: Option<String>,
-    /// What stands between the columns of a text: a sign, tab or blank [default: a comma, of .txt blanks; a semicolon
-    /// with --decimal ,]
-    #[arg(long, value_name = "SIGN", value_parser = delimiter)]
-    pub(super) delimiter: Option<char>,
-    /// Decimal sign of a text, a point or a comma [default: .]
-    #[arg(long, value_name = "SIGN")]
-    pub(super) decimal: Option<char>,
-    /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
-    #[arg(long, value_name = "FILE.html", value_parser = html_file)]
-    pub(super) report: Option<PathBuf>,
-    #[command(flatten)]
-    pub(super) drawn: Drawn,
-}
-
-impl Size {
-    pub(super) fn bearing(&self) -> size::Bearing {
-        match (&self.scene, &self.bearing) {
-            (Some(scene), _) => size::Bearing::Scene(scene.clone()),
-            (None, name) => size::Bearing::Catalogue(name.clone().unwrap_or_default(), self.load),
-        }
-    }
-
-    pub(super) fn text(&self) -> TextFormat {
-        TextFormat { delimiter: self.delimiter, decimal: self.decimal }
-    }
-
-    pub(super) fn speeds(&self) -> Vec<ShaftSpeed> {
-        if let Some(column) = &self.tacho {
-            vec![ShaftSpeed::Stated(Speed::Tachometer(column.clone(), self.pulses))]
-        } else if let Some(column) = &self.speed_column {
-            vec![ShaftSpeed::Stated(Speed::Column(column.clone()))]
-        } else {
-            self.speed.clone()
-        }
     }
 }
 

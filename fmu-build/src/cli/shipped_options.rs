@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::options::Drawn;
 use crate::commands::{Asked, Spall};
 use crate::paper;
+use crate::shared::Drawn;
 
 /// Options of `paper`.
 #[derive(Debug, Args)]

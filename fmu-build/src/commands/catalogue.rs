@@ -14,14 +14,6 @@ use super::new_scene;
 /// What is said of dimensions that nobody has published.
 const ASSUMED: &str = "assumed: estimated from the boundary, the number may be one off";
 
-/// A bearing of the catalogue.
-#[derive(Debug, Clone, Copy)]
-struct Entry {
-    name: &'static str,
-    boundary: [f64; 3],
-    inside: Inside,
-}
-
 /// Frequencies as multiples of the shaft's with the outer ring at rest, and load ratings (N).
 #[derive(Debug, Clone, Copy)]
 struct Derived {
@@ -52,12 +44,12 @@ pub(crate) fn command(filter: &str, as_json: bool) -> Result<()> {
     }
     print!("{}", table(&entries));
     if let [entry] = entries[..] {
-        print!("{}", derived(entry.name)?);
+        print!("{}", derived(entry.designation)?);
     }
     Ok(())
 }
 
-fn entries(filter: &str) -> Result<Vec<Entry>> {
+fn entries(filter: &str) -> Result<Vec<CatalogueBearing>> {
     let filter = filter.trim().to_uppercase();
     let mut bearings: Vec<_> = catalogue().filter(|bearing| bearing.designation.starts_with(&filter)).collect();
     if bearings.is_empty() {
@@ -68,27 +60,22 @@ fn entries(filter: &str) -> Result<Vec<Entry>> {
         let near = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
         bail!("no bearing of the catalogue begins with {filter:?}; {near}`brinell catalogue` lists all");
     }
-    let entry = |bearing: &CatalogueBearing| Entry {
-        name: bearing.designation,
-        boundary: bearing.boundary,
-        inside: bearing.inside,
-    };
-    Ok(bearings.iter().map(entry).collect())
+    Ok(bearings)
 }
 
-fn table(entries: &[Entry]) -> String {
+fn table(entries: &[CatalogueBearing]) -> String {
     let mut text = String::from(
         "Deep groove (6...) and angular contact ball bearings (72...; C 15, B 40 degrees) and cylindrical roller\n\
          bearings (NU...; NJ, NUP and N are the same inside).\n\
          Bore, outside diameter and width by ISO 15; elements as the last column says.\n\n\
          name      d    D    B [mm]  elements  diameter [mm]  length [mm]  pitch [mm]  elements and pitch diameter\n",
     );
-    for Entry { name, boundary: [bore, outside, width], inside } in entries {
+    for CatalogueBearing { designation, boundary: [bore, outside, width], inside } in entries {
         let Inside { element_count, element_diameter, pitch_diameter, roller_length, source, .. } = inside;
         let length = roller_length.map_or("-".to_owned(), |length| format!("{length:.1}"));
         let _ = writeln!(
             text,
-            "{name:<6} {bore:>4} {outside:>4} {width:>4}       {element_count:>8}  {element_diameter:>13.3}  \
+            "{designation:<6} {bore:>4} {outside:>4} {width:>4}       {element_count:>8}  {element_diameter:>13.3}  \
              {length:>11}  {pitch_diameter:>10.3}  {}",
             source.unwrap_or(ASSUMED)
         );
@@ -111,10 +98,10 @@ fn derived(name: &str) -> Result<String> {
     Ok(text)
 }
 
-fn json_of(entry: &Entry, alone: bool) -> Result<Value> {
-    let Entry { name, boundary: [bore, outside, width], inside } = entry;
+fn json_of(entry: &CatalogueBearing, alone: bool) -> Result<Value> {
+    let CatalogueBearing { designation, boundary: [bore, outside, width], inside } = entry;
     let mut row = json!({
-        "name": name,
+        "name": designation,
         "bore_mm": bore,
         "outside_diameter_mm": outside,
         "width_mm": width,
@@ -125,7 +112,7 @@ fn json_of(entry: &Entry, alone: bool) -> Result<Value> {
         "source": inside.source.unwrap_or(ASSUMED),
     });
     if alone {
-        let Derived { orders, dynamic, fixed } = Derived::of(name)?;
+        let Derived { orders, dynamic, fixed } = Derived::of(designation)?;
         for (name, order) in orders {
             row[format!("{}_orders", name.to_lowercase())] = json!(order);
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Result, bail};
 use brinell_analysis::modes::{Assembly, Hold, Kind, LineReport, ModesReport, loaded, sweep};
 
-use super::stiffness::{Options, beside, enough_points};
+use super::stiffness::{Options, enough_points};
 use crate::package::Model;
 use crate::shared::{Project, Python, contact_map, whole_file};
 
@@ -32,9 +32,9 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     }
 
     let stem = folder.join(&scene.name);
-    let path = beside(&stem, "-modes.json");
+    let path = whole_file::beside(&stem, "-modes.json");
     whole_file::write(&path, serde_json::to_string(&report)? + "\n")?;
-    options.tell(format_args!("{}\n", path.display()));
+    options.name(&path);
     if options.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {

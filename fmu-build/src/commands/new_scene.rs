@@ -87,23 +87,13 @@ pub(crate) fn command(name: Option<&str>, bearing: &str, asked: Asked, folder: &
     let text = text(name, &bearing, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
-    write_new(name, &text, folder)?;
+    whole_file::write_own(&folder.join(format!("{name}.toml")), &text)?;
     schema::write_beside(folder)
 }
 
 /// The command with `--sweep`: writes a sweep's file with every key.
 pub(crate) fn sweep(name: &str, folder: &Path) -> Result<()> {
-    write_new(name, include_str!("../../../examples/sweep.toml"), folder)
-}
-
-fn write_new(name: &str, text: &str, folder: &Path) -> Result<()> {
-    let path = folder.join(format!("{name}.toml"));
-    if path.exists() {
-        bail!("{} is there already and stays as it is", path.display());
-    }
-    whole_file::write(&path, text)?;
-    println!("{}", path.display());
-    Ok(())
+    whole_file::write_own(&folder.join(format!("{name}.toml")), include_str!("../../../examples/sweep.toml"))
 }
 
 fn text(name: &str, bearing: &CatalogueBearing, asked: Asked) -> Result<String> {

@@ -27,12 +27,7 @@ pub fn command(names: &[String], json: bool, folder: &Path) -> Result<()> {
             bail!("{name}: no such scene; {}", shipped::meant(name));
         };
         for (file, text) in files {
-            let path = folder.join(file);
-            if path.exists() {
-                bail!("{} is there already and stays as it is", path.display());
-            }
-            whole_file::write(&path, text)?;
-            println!("{}", path.display());
+            whole_file::write_own(&folder.join(file), text)?;
         }
     }
     if names.is_empty() { Ok(()) } else { schema::write_beside(folder) }

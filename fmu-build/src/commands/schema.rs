@@ -18,9 +18,5 @@ pub(crate) fn text() -> Result<String> {
 /// Writes the schema into a folder, unless a file of its name is there: it may be somebody's.
 pub(crate) fn write_beside(folder: &Path) -> Result<()> {
     let path = folder.join(NAME);
-    if !path.exists() {
-        whole_file::write(&path, text()?)?;
-        println!("{}", path.display());
-    }
-    Ok(())
+    if path.exists() { Ok(()) } else { whole_file::write_own(&path, &text()?) }
 }

@@ -7,34 +7,20 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use brinell::scene::{self, Scene};
+use brinell::scene::{Bearing, Scene};
 use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
 use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
+use clap::Args;
 
 use super::{new_scene, size_report};
 use crate::package::model::operating_angle;
 use crate::package::read_scene;
-use crate::shared::{Project, Python, contact_map, csv, digits, note, speed, talk, whole_file};
-
-/// Where the bearing and its load come from.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Bearing {
-    /// A scene, by its file or its name.
-    Scene(PathBuf),
-    /// The catalogue, and the load (N) where it is known.
-    Catalogue(String, Option<f64>),
-}
-
-impl Bearing {
-    fn scene(&self) -> Result<Scene> {
-        match self {
-            Bearing::Scene(path) => Ok(read_scene(path)?.1),
-            Bearing::Catalogue(name, load) => new_scene::without_rig(name, *load),
-        }
-    }
-}
+use crate::shared::{
+    Drawn, Project, Python, contact_map, csv, delimiter, digits, html_file, note, number, speed, talk, whole,
+    whole_file,
+};
 
 /// Where the shaft's speed comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,38 +43,100 @@ pub(crate) fn shaft_speed(text: &str) -> Result<ShaftSpeed, String> {
     Ok(ShaftSpeed::Sought([speed(low)?, speed(high)?]))
 }
 
-/// What the user says.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Sampling rate (Hz); `None` where the files state it.
-    pub rate: Option<f64>,
-    /// Shaft speed of all recordings, or of each.
-    pub speeds: Vec<ShaftSpeed>,
-    /// Column of the signal, by name or number.
-    pub channel: Option<String>,
-    /// How texts are written.
-    pub text: TextFormat,
-    /// Whether to draw.
-    pub figure: bool,
-    /// File of a page that shows what the answer rests on.
-    pub report: Option<PathBuf>,
+/// Options of `size`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("shaft").required(true))]
+#[command(group = clap::ArgGroup::new("which").required(true))]
+pub struct Size {
+    /// Recordings of one bearing: .csv, .txt, .npy, .npz, .mat or .wav
+    #[arg(required = true, value_name = "RECORDING")]
+    recordings: Vec<PathBuf>,
+    /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is ignored
+    #[arg(long, group = "which")]
+    scene: Option<PathBuf>,
+    /// Instead of a scene a bearing that `brinell catalogue` lists; nothing is known of its rig
+    #[arg(long, value_name = "NAME", group = "which")]
+    bearing: Option<String>,
+    /// Load of that bearing in newtons [default: 5 % of the static rating]
+    #[arg(long, value_name = "N", requires = "bearing", allow_negative_numbers = true, value_parser = number)]
+    load: Option<f64>,
+    /// Sampling rate in hertz [default: the file's own]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
+    rate: Option<f64>,
+    /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas;
+    /// LOW..HIGH seeks it by the shaft's own lines, and auto from 5 to 60 Hz
+    #[arg(
+        long,
+        value_name = "HZ|LOW..HIGH|auto",
+        value_delimiter = ',',
+        group = "shaft",
+        allow_negative_numbers = true,
+        value_parser = shaft_speed,
+    )]
+    speed: Vec<ShaftSpeed>,
+    /// Column of a tachometer, by name or by number from 1
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    tacho: Option<String>,
+    /// Pulses of the tachometer per shaft turn
+    #[arg(
+        long,
+        value_name = "COUNT",
+        default_value_t = 1,
+        allow_negative_numbers = true,
+        value_parser = whole::<1, 10_000>,
+    )]
+    pulses: u32,
+    /// Column of the shaft's speed at every sample, in hertz unless its heading says rpm or rad/s
+    #[arg(long, value_name = "COLUMN", group = "shaft")]
+    speed_column: Option<String>,
+    /// Channel of the signal, by name or by number from 1, where a file has several
+    #[arg(long, value_name = "NAME|NUMBER", alias = "column")]
+    channel: Option<String>,
+    /// What stands between the columns of a text: a sign, tab or blank [default: a comma, of .txt blanks; a semicolon
+    /// with --decimal ,]
+    #[arg(long, value_name = "SIGN", value_parser = delimiter)]
+    delimiter: Option<char>,
+    /// Decimal sign of a text, a point or a comma [default: .]
+    #[arg(long, value_name = "SIGN")]
+    decimal: Option<char>,
+    /// Write an HTML page with what the answer rests on: spectra, combs, averaged passage
+    #[arg(long, value_name = "FILE.html", value_parser = html_file)]
+    report: Option<PathBuf>,
+    #[command(flatten)]
+    drawn: Drawn,
+}
+
+impl Size {
+    /// The bearing and its load.
+    fn scene(&self) -> Result<Scene> {
+        match &self.scene {
+            Some(path) => Ok(read_scene(path)?.1),
+            None => new_scene::without_rig(self.bearing.as_deref().unwrap_or_default(), self.load),
+        }
+    }
+
+    /// Speed of the shaft in all recordings, or in each.
+    fn speeds(&self) -> Vec<ShaftSpeed> {
+        if let Some(column) = &self.tacho {
+            vec![ShaftSpeed::Stated(Speed::Tachometer(column.clone(), self.pulses))]
+        } else if let Some(column) = &self.speed_column {
+            vec![ShaftSpeed::Stated(Speed::Column(column.clone()))]
+        } else {
+            self.speed.clone()
+        }
+    }
 }
 
 /// The command: prints the report, and writes `<folder>/<recording>-size.csv`, `.json` and, if wanted, figures.
-pub fn command(
-    project: &Project,
-    bearing: &Bearing,
-    recordings: &[PathBuf],
-    options: &Options,
-    folder: &Path,
-) -> Result<()> {
+pub fn command(project: &Project, options: &Size) -> Result<()> {
     // In space balls pass a spall as often as the contact angle says under which they run.
-    let scene = with_operating_angle(&bearing.scene()?).into_owned();
+    let scene = with_operating_angle(&options.scene()?).into_owned();
     if let Some(said) = operating_angle(&scene) {
         note!("note: {said}");
     }
-    let recordings = read(recordings, options, &scene.bearing)?;
-    for (r, speed) in recordings.iter().zip(options.speeds.iter().cycle()) {
+    let speeds = options.speeds();
+    let recordings = read(options, &speeds, &scene.bearing)?;
+    for (r, speed) in recordings.iter().zip(speeds.iter().cycle()) {
         // Times that are read as numbers leave some 1e-13 of the rate over.
         let rate = digits(1e-3 * r.rate());
         let by = if matches!(speed, ShaftSpeed::Sought(_)) { ", by its own lines" } else { "" };
@@ -109,30 +157,30 @@ pub fn command(
     eprintln!("{}", answer(&report));
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
-    let stems = write(&report, folder)?;
+    let stems = write(&report, &options.drawn.folder(project, "size"))?;
     if let Some(path) = &options.report {
         whole_file::write(path, size_report::page(&report, &recordings, &scene, &found(&report))?)?;
         eprintln!("{}", path.display());
     }
-    if options.figure {
+    if !options.drawn.no_figure {
         Python::draw(project, "size.py", &stems);
     }
     Ok(())
 }
 
-fn read(paths: &[PathBuf], options: &Options, bearing: &scene::Bearing) -> Result<Vec<Recording>> {
-    let count = options.speeds.len();
+fn read(options: &Size, speeds: &[ShaftSpeed], bearing: &Bearing) -> Result<Vec<Recording>> {
+    let (paths, count) = (&options.recordings, speeds.len());
     if count != 1 && count != paths.len() {
         bail!("{count} speeds for {} recordings: give one for all, or one for each", paths.len());
     }
-    let speeds = options.speeds.iter().cycle();
-    let recordings = paths.iter().zip(speeds).map(|(path, speed)| {
+    let text = TextFormat { delimiter: options.delimiter, decimal: options.decimal };
+    let recordings = paths.iter().zip(speeds.iter().cycle()).map(|(path, speed)| {
         // Until it is found a speed that can be stands in for it: limits are judged where it is sought.
         let stated = match speed {
             ShaftSpeed::Stated(speed) => speed.clone(),
             ShaftSpeed::Sought(_) => Speed::Constant(PLAUSIBLE[0]),
         };
-        let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text: options.text };
+        let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text };
         let recording = Recording::read(path, &source)?;
         let ShaftSpeed::Sought(limits) = speed else { return Ok(recording) };
         let found = find_speed(recording.name(), recording.samples(), recording.rate(), bearing, *limits)?;
@@ -154,12 +202,12 @@ fn found(report: &Report) -> String {
             let standing = if standing == Standing::Firm { "firm" } else { "provisional" };
             format!("{part}: {length:.2} ± {uncertainty:.2} mm ({degrees:.2} degrees), {standing}")
         }
-        _ => {
-            let least =
-                report.at_least_deg.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
-            format!("{part}, {least}")
-        }
+        _ => format!("{part}, {}", at_least(report.at_least_deg)),
     }
+}
+
+fn at_least(degrees: Option<f64>) -> String {
+    degrees.map_or("no length".to_owned(), |degrees| format!("at least {degrees:.2} degrees"))
 }
 
 /// What one of several recordings gave.
@@ -171,8 +219,7 @@ fn of_recording(done: &RecordingReport) -> String {
     match (done.length_deg, done.uncertainty_deg, done.at_least_deg) {
         (Some(length), Some(uncertainty), _) => format!("{part}: {length:.2} ± {uncertainty:.2} degrees"),
         (.., least) => {
-            let least = least.map_or("no length".to_owned(), |least| format!("at least {least:.2} degrees"));
-            format!("{part}, {least}: {}", done.reason.as_deref().unwrap_or("no reason given"))
+            format!("{part}, {}: {}", at_least(least), done.reason.as_deref().unwrap_or("no reason given"))
         }
     }
 }
@@ -201,14 +248,14 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
             }
             stem = folder.join(format!("{name}-size-{count}"));
         }
-        let passage = with_ending(&stem, ".csv");
-        whole_file::write_with(&passage, |mut out| write_passage(&mut out, figure))?;
+        let passage = whole_file::beside(&stem, ".csv");
+        write_passage(&passage, figure)?;
         eprintln!("{}", passage.display());
         let mut answer = serde_json::to_value(recording)?;
         answer["critical_load_n"] = serde_json::json!(report.critical_load_n);
         answer["critical_load_reason"] = serde_json::json!(report.critical_load_reason);
         answer["kind"] = serde_json::json!(report.kind);
-        let about = with_ending(&stem, ".json");
+        let about = whole_file::beside(&stem, ".json");
         whole_file::write(&about, serde_json::to_string_pretty(&answer)? + "\n")?;
         eprintln!("{}", about.display());
         stems.push(stem);
@@ -216,14 +263,7 @@ fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(stems)
 }
 
-/// A recording's name may hold dots: the ending is added, not exchanged.
-fn with_ending(stem: &Path, ending: &str) -> PathBuf {
-    let mut name = stem.as_os_str().to_owned();
-    name.push(ending);
-    name.into()
-}
-
-fn write_passage(out: &mut impl Write, figure: &Figure) -> Result<()> {
+fn write_passage(path: &Path, figure: &Figure) -> Result<()> {
     let mut names = vec![("angle", "deg"), ("signal", "1"), ("level", "dB"), ("low", "1")];
     let mut columns = vec![&figure.angle, &figure.signal, &figure.level, &figure.low];
     for (name, unit, column) in [("model", "1", &figure.model), ("path", "m", &figure.path)] {
@@ -232,9 +272,5 @@ fn write_passage(out: &mut impl Write, figure: &Figure) -> Result<()> {
             columns.push(column);
         }
     }
-    csv::header(out, names.into_iter())?;
-    for i in 0..figure.angle.len() {
-        csv::row(out, columns.iter().map(|column| column[i]))?;
-    }
-    Ok(())
+    csv::table(path, &names, &columns)
 }

@@ -2,10 +2,8 @@
 //! assumptions by which the extended spall's floor comes to carry load between 500 and 600 N.
 
 use anyhow::Result;
-use brinell::scene::{ContactLaw, DefectShape};
 use brinell_analysis::sizing::passages::fold;
-use brinell_analysis::sizing::waveform::{Rig, Ringing, Trial, ringing, synthesis};
-use brinell_analysis::statics::StaticBearing;
+use brinell_analysis::sizing::waveform::{Ringing, ringing, synthesis};
 
 use super::Case;
 use crate::shared::Project;
@@ -89,24 +87,4 @@ pub fn rings(case: &Case, passage: &[f64]) -> Option<Ringing> {
     let after_entry = ringing::strongest(&stretch(1.0, over - 1.0), rate)?;
     let after_exit = ringing::strongest(&stretch(over + 0.5, spacing - 0.5), rate)?;
     Some(Ringing { after_entry, after_exit })
-}
-
-/// The rings' mode on the static stiffness of this spall.
-pub fn expected(case: &Case) -> Option<Ringing> {
-    let spacing = 360.0 / case.scene.bearing.element_count as f64;
-    let Some(DefectShape::Spall { depth, .. }) = case.scene.defects.first().map(|defect| defect.shape.clone()) else {
-        return None;
-    };
-    let rig = Rig::new(&case.scene, case.bpfo(), &|_| None)?;
-    ringing::expected(&rig, Trial { length: case.length(), depth, law: ContactLaw::Hertz }, spacing).ok()
-}
-
-/// Stiffness along the load with two elements about the middle of the spall (N/µm).
-///
-/// # Errors
-/// Without a balance.
-pub fn least_stiffness(case: &Case) -> Result<f64> {
-    let bearing = StaticBearing::new(&case.clone().with_law(ContactLaw::Hertz).scene, None)?;
-    let angle = -std::f64::consts::FRAC_PI_2 - if case.length() > 40.0 { 0.5 * bearing.spacing() } else { 0.0 };
-    Ok(1e-6 * bearing.balance(angle, bearing.load())?.free_stiffness())
 }

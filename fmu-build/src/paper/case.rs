@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use brinell::geometry::kinematics;
-use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
+use brinell::scene::{ContactLaw, DefectShape, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::sizing::Raceway;
 use brinell_analysis::sizing::passages::fold;
@@ -59,15 +59,6 @@ impl Case {
         self
     }
 
-    /// The same with flanks instead of sharp edges: length at the surface (degrees), depth (m), slope (degrees).
-    pub fn with_flanks(mut self, length: f64, depth: f64, slope: f64) -> Self {
-        self = self.with_spall(length, depth);
-        if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = self.scene.defects.first_mut() {
-            *edge_slope = slope.to_radians();
-        }
-        self
-    }
-
     /// Text of the profile, if the scene names one.
     pub fn profile(&self) -> Option<&str> {
         self.profile.as_deref()
@@ -113,23 +104,11 @@ impl Case {
         let map = contact_map::of(&self.scene, self.profile(), project).with_context(about)?;
         let mut simulation =
             Simulation::with_map(self.scene.clone(), self.profile(), map.as_deref()).with_context(about)?;
-        let table = simulation.table();
-        let reference = |name: &str| table.iter().find(|v| v.name == name).map(|v| v.reference);
-        let references: Vec<u32> = names
-            .iter()
-            .map(|name| reference(name).with_context(|| format!("{name} in scene {}", self.scene.name)))
-            .collect::<Result<_>>()?;
         simulation.initialize(0.0).with_context(about)?;
         let mut columns = vec![Vec::new(); names.len()];
-        let mut values = vec![0.0; names.len()];
-        for k in 0..=(seconds * rate) as usize {
-            if k > 0 {
-                simulation.step(1.0 / rate).with_context(about)?;
-            }
-            simulation.reals(&references, &mut values)?;
-            for (column, &value) in columns.iter_mut().zip(&values) {
-                column.push(value);
-            }
+        for sample in simulation.samples(names, 1.0 / rate)?.take(1 + (seconds * rate) as usize) {
+            let values = sample.with_context(about)?.values;
+            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         }
         Ok(columns)
     }

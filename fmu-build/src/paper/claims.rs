@@ -127,7 +127,7 @@ pub(super) fn four_events(found: Vec<(FourEvents, Passage)>, project: &Project) 
 
 /// Figure 4.
 pub(super) fn profile(case: &Case) -> Result<Vec<Claim>> {
-    let (_, [arc, depth, path]) = passage::profile(case)?;
+    let (_, [arc, depth, path]) = passage::profile(case, passage::AROUND)?;
     let drop = path.iter().copied().fold(0.0, f64::max);
     let middle = path.iter().zip(&arc).find(|(path, _)| **path == drop).map_or(f64::NAN, |(_, arc)| *arc);
     let deepest = depth.iter().copied().fold(0.0, f64::max);
@@ -153,7 +153,7 @@ pub(super) fn epps(case: &Case, found: &[Epps]) -> Result<Vec<Claim>> {
     let [map, hertz] = found else { return Ok(Vec::new()) };
     let hz = |rings: Option<f64>| rings.unwrap_or(f64::NAN);
     let force = |e: &Epps| format!("{:.0} → {:.0} → {:.0} N", e.force[0], e.force[1], e.force[2]);
-    let (_, [arc, depth, _]) = passage::profile(case)?;
+    let (_, [arc, depth, _]) = passage::profile(case, passage::AROUND)?;
     let below = || arc.iter().zip(&depth).filter(|(_, depth)| **depth > 0.0).map(|(arc, _)| *arc);
     let length = below().fold(f64::MIN, f64::max) - below().fold(f64::MAX, f64::min);
     let load = -case.scene.shaft.load[1];

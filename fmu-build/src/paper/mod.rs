@@ -17,6 +17,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use brinell::scene::ContactLaw;
+use clap::ValueEnum;
 use serde_json::json;
 
 use crate::shared::{Project, Python, csv, whole_file};
@@ -26,7 +27,7 @@ use averages::PANELS;
 pub const LAWS: [ContactLaw; 2] = [ContactLaw::Map, ContactLaw::Hertz];
 
 /// A part of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Part {
     /// The four events of one passage over the line spall
     Fig1,
@@ -43,15 +44,9 @@ pub enum Part {
 }
 
 impl Part {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Fig1 => "fig1",
-            Self::Fig4 => "fig4",
-            Self::Fig5 => "fig5",
-            Self::Fig6 => "fig6",
-            Self::Table1 => "table1",
-            Self::Table2 => "table2",
-        }
+    /// As the user names it.
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
 
     /// The figure of its data, by its name in `paper.py`.
@@ -75,7 +70,10 @@ pub fn command(project: &Project, part: Part, json: bool, figure: bool, folder: 
     let claims = match part {
         Part::Fig1 => claims::four_events(four_events(project, data.path())?, project)?,
         Part::Fig4 => claims::profile(&epps_profile(data.path())?)?,
-        Part::Fig5 => claims::epps(&Case::shipped("6205-epps")?, &epps(project, data.path())?)?,
+        Part::Fig5 => {
+            let case = Case::shipped("6205-epps")?;
+            claims::epps(&case, &epps(project, &[("trace", &case)], data.path())?)?
+        }
         Part::Fig6 => claims::averages(&averaged(project, data.path())?),
         Part::Table1 => claims::test_bearings()?,
         Part::Table2 => claims::dimensions()?,
@@ -100,34 +98,49 @@ pub fn command(project: &Project, part: Part, json: bool, figure: bool, folder: 
     Ok(())
 }
 
-fn four_events(project: &Project, data: &Path) -> Result<Vec<(FourEvents, Passage)>> {
-    let mut found = Vec::new();
-    for law in LAWS {
+/// The line spall's passage under both laws, and its signals in the folder's `four-events.csv`.
+///
+/// # Errors
+/// Of the simulation; of writing.
+pub fn four_events(project: &Project, data: &Path) -> Result<Vec<(FourEvents, Passage)>> {
+    let of_law = |law| {
         let case = Case::shipped("er16k-tb1")?.with_law(law);
         let passage = Passage::of(project, &case, case.length(), [2e-3, 22e-3])?;
-        found.push((FourEvents::of(&passage, case.length() / case.travel()), passage));
-    }
-    let time = vec![found[0].1.time.clone()];
-    let columns: Vec<_> =
-        time.into_iter().chain(found.iter().flat_map(|(_, passage)| passage.signals.clone())).collect();
-    csv::table(&data.join("four-events.csv"), &passage::columns(&["map", "hertz"]), &columns)?;
+        Ok((FourEvents::of(&passage, case.length() / case.travel()), passage))
+    };
+    let found = LAWS.into_iter().map(of_law).collect::<Result<Vec<_>>>()?;
+    let (names, columns) = passage::table(["map", "hertz"].into_iter().zip(found.iter().map(|(_, passage)| passage)));
+    csv::table(&data.join("four-events.csv"), &names, &columns)?;
     Ok(found)
 }
 
-fn epps_profile(data: &Path) -> Result<Case> {
+/// Epps' spall, its profile in the folder's `profile.csv`.
+///
+/// # Errors
+/// Of writing.
+pub fn epps_profile(data: &Path) -> Result<Case> {
     let case = Case::shipped("6205-epps")?;
-    let (names, columns) = passage::profile(&case)?;
+    let (names, columns) = passage::profile(&case, passage::AROUND)?;
     csv::table(&data.join("profile.csv"), &names, &columns)?;
     Ok(case)
 }
 
-fn epps(project: &Project, data: &Path) -> Result<Vec<Epps>> {
-    let case = Case::shipped("6205-epps")?;
-    let found = LAWS.map(|law| Epps::of(project, &case.clone().with_law(law)));
-    let found = found.into_iter().collect::<Result<Vec<_>>>()?;
-    let time = vec![found[0].passage.time.clone()];
-    let columns: Vec<_> = time.into_iter().chain(found.iter().flat_map(|epps| epps.passage.signals.clone())).collect();
-    csv::table(&data.join("epps.csv"), &passage::columns(&["trace map", "trace hertz"]), &columns)?;
+/// Passages over Epps' spall in shapes with their names, each under both laws, and their signals in the folder's
+/// `epps.csv`.
+///
+/// # Errors
+/// Of the simulation; of writing.
+pub fn epps(project: &Project, shapes: &[(&str, &Case)], data: &Path) -> Result<Vec<Epps>> {
+    let (mut names, mut found) = (Vec::new(), Vec::new());
+    for &(shape, case) in shapes {
+        for (law, word) in LAWS.into_iter().zip(["map", "hertz"]) {
+            names.push(format!("{shape} {word}"));
+            found.push(Epps::of(project, &case.clone().with_law(law))?);
+        }
+    }
+    let passages = names.iter().map(String::as_str).zip(found.iter().map(|epps| &epps.passage));
+    let (names, columns) = passage::table(passages);
+    csv::table(&data.join("epps.csv"), &names, &columns)?;
     Ok(found)
 }
 

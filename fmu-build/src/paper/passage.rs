@@ -1,9 +1,11 @@
 //! One passage in detail: the four events of the line spall (the paper's Figure 1) and Epps' spall (Figures 4 and 5).
 
+use std::ops::RangeInclusive;
+
 use anyhow::{Context, Result};
 use brinell::contact::rolled_path::RigidPath;
 use brinell::contact::rolling::{RacewaySide, Rolling};
-use brinell::surface::Surface;
+use brinell::surface::{Profile, Surface};
 use brinell_analysis::sizing::waveform::{ringing, synthesis};
 
 use super::Case;
@@ -15,6 +17,9 @@ const NAMES: [&str; 5] =
     ["sensor.acceleration", "housing.ay", "element[1].path", "element[1].force.inner", "element[1].force.outer"];
 /// Length of Epps' spall along the raceway (m).
 const EPPS_LENGTH: f64 = 0.8e-3;
+
+/// Around a spall that is drawn (µm).
+pub const AROUND: RangeInclusive<i32> = -700..=700;
 
 /// Names of columns with their units.
 pub type Names = Vec<(String, &'static str)>;
@@ -144,13 +149,18 @@ fn rings_after(project: &Project, case: &Case, length: f64) -> Result<Option<f64
     Ok(ringing::strongest(&smooth[from..], rate))
 }
 
-fn path_of(case: &Case) -> Result<(Surface, RigidPath)> {
+/// The profile of a case's defect, and the path of a rigid element over it.
+///
+/// # Errors
+/// Of a scene whose surface is no profile.
+pub(crate) fn path_of(case: &Case) -> Result<(Profile, RigidPath)> {
     let bearing = &case.scene.bearing;
     let defect = case.scene.defects.first().context("no defect")?;
-    let surface = Surface::load(defect, case.profile(), bearing)?;
-    let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
+    let Surface::Profile(profile) = Surface::load(defect, case.profile(), bearing)? else {
+        anyhow::bail!("a topography has no one path")
+    };
     let path = RigidPath::new(profile.points(), Rolling::of(bearing, RacewaySide::Outer, false))?;
-    Ok((surface, path))
+    Ok((profile, path))
 }
 
 /// Depth of the path of a rigid element (m) at angle (rad).
@@ -165,28 +175,30 @@ fn rigid_drop(case: &Case) -> Result<f64> {
     Ok((-500..=500).map(|k| rigid(&path, f64::from(k) * 1e-6 / radius)).fold(0.0, f64::max))
 }
 
-/// Columns of a profile and the path of a rigid element over it, every micrometre: arc, depth and path (m).
+/// Columns of a profile and the path of a rigid element over it, every micrometre of these: arc, depth and path (m).
 ///
 /// # Errors
 /// Of a scene whose surface is no profile.
-pub fn profile(case: &Case) -> Result<(Names, [Vec<f64>; 3])> {
-    let (surface, path) = path_of(case)?;
-    let Surface::Profile(profile) = &surface else { anyhow::bail!("a topography has no one path") };
+pub fn profile(case: &Case, micrometres: RangeInclusive<i32>) -> Result<(Names, [Vec<f64>; 3])> {
+    let (profile, path) = path_of(case)?;
     let radius = case.scene.bearing.outer_raceway_radius();
-    let arc: Vec<f64> = (-700..=700).map(|k| f64::from(k) * 1e-6).collect();
+    let arc: Vec<f64> = micrometres.map(|k| f64::from(k) * 1e-6).collect();
     let depth = arc.iter().map(|&arc| profile.depth_at(arc)).collect();
     let centre = arc.iter().map(|&arc| rigid(&path, arc / radius)).collect();
     let names = ["arc", "depth", "path"].map(|name| (name.to_owned(), "m"));
     Ok((names.to_vec(), [arc, depth, centre]))
 }
 
-/// Names of the columns of several passages: time, and the signals of each case.
-pub fn columns(cases: &[&str]) -> Vec<(String, &'static str)> {
-    let mut names = vec![("time".to_owned(), "s")];
-    for case in cases {
-        for (name, unit) in NAMES.iter().zip(["m/s2", "m/s2", "m", "N", "N"]) {
-            names.push((format!("{case} {name}"), unit));
+/// Columns of several passages: the time of the first, and the signals of each under its name.
+pub fn table<'p>(passages: impl IntoIterator<Item = (&'p str, &'p Passage)>) -> (Names, Vec<&'p [f64]>) {
+    let (mut names, mut columns) = (vec![("time".to_owned(), "s")], Vec::new());
+    for (name, Passage { time, signals }) in passages {
+        if columns.is_empty() {
+            columns.push(time.as_slice());
         }
+        columns.extend(signals.iter().map(Vec::as_slice));
+        let units = ["m/s2", "m/s2", "m", "N", "N"];
+        names.extend(NAMES.iter().zip(units).map(|(signal, unit)| (format!("{name} {signal}"), unit)));
     }
-    names
+    (names, columns)
 }

@@ -116,9 +116,7 @@ impl Zig {
         let kit = project.cache().join("zig/macos");
         for library in ["System", "c", "m", "iconv"] {
             let path = kit.join(format!("usr/lib/lib{library}.tbd"));
-            if !fs::read_to_string(&path).is_ok_and(|there| there == text) {
-                whole_file::write(&path, &text)?;
-            }
+            whole_file::write_if_new(&path, &text)?;
         }
         Ok(kit)
     }
@@ -132,14 +130,12 @@ impl Zig {
 
 /// Writes a script that can be started, unless it is there.
 fn write_program(path: &Path, text: &str) -> Result<()> {
-    if fs::read_to_string(path).is_ok_and(|there| there == text) {
-        return Ok(());
-    }
-    whole_file::write(path, text)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(path, fs::Permissions::from_mode(0o755)).with_context(|| path.display().to_string())?;
+    if whole_file::write_if_new(path, text)? {
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            fs::set_permissions(path, fs::Permissions::from_mode(0o755)).with_context(|| path.display().to_string())?;
+        }
     }
     Ok(())
 }

@@ -244,16 +244,9 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
     }
     if options.page {
         let orders = spectra.write_orders(folder)?;
-        let files = page::Files {
-            signals: &done.signals,
-            recording: done.recording.as_ref(),
-            envelope: envelope.as_deref(),
-            orders: orders.as_ref(),
-            changes: options.profile.is_some(),
-        };
         let angle = operating_angle(scene);
         let notes: Vec<String> = notes(options).into_iter().chain(angle).chain(too_short).collect();
-        let described = page::described(model, &files, &notes)?;
+        let described = page::described(model, done, envelope.as_deref(), orders, options.profile.is_some(), &notes)?;
         let about = done.signals.path().with_extension("json");
         whole_file::write(&about, described.to_string())?;
         let page = folder.join(format!("{}.html", scene.name));

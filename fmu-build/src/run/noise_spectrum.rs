@@ -47,12 +47,8 @@ impl NoiseSpectrum {
         let largest = if of_power { LARGEST * LARGEST } else { LARGEST };
         let mut rows: Vec<[f64; 2]> = Vec::with_capacity(pairs.len());
         for (line, [frequency, density]) in pairs {
-            match rows.last() {
-                None if frequency < 0.0 => bail!("line {line}: frequency_hz is {frequency}: it must be at least 0"),
-                Some([last, _]) if frequency <= *last => {
-                    bail!("line {line}: frequency_hz is {frequency}: it must be above {last}, that of the row before")
-                }
-                _ => {}
+            if frequency < 0.0 {
+                bail!("line {line}: frequency_hz is {frequency}: it must be at least 0");
             }
             if !(0.0..=largest).contains(&density) {
                 bail!("line {line}: {name} is {density}: it must be from 0 to {largest}");

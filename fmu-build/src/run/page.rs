@@ -1,7 +1,7 @@
 //! What the page of a run is made of beside its signals: the bearing's frequencies, the defects with their surfaces,
 //! and where the files are.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use brinell::contact::rolling::RacewaySide;
@@ -11,31 +11,26 @@ use brinell::simulation::setup::track_across;
 use brinell::surface::Surface;
 use serde_json::{Value, json};
 
+use super::run_loop::Done;
 use super::signals::Signals;
 use crate::package::Model;
 
 /// Most points of a surface that are drawn.
 const POINTS: usize = 4000;
 
-/// Files of a run.
-pub(super) struct Files<'a> {
-    /// At communication points, with all variables.
-    pub(super) signals: &'a Signals,
-    /// The recorder's samples.
-    pub(super) recording: Option<&'a Signals>,
-    /// Spectrum of the envelope, a CSV with a JSON beside it.
-    pub(super) envelope: Option<&'a Path>,
-    /// Whether the shaft's speed changes.
-    pub(super) changes: bool,
-    /// Orders, with what there is to mark.
-    pub(super) orders: Option<&'a (std::path::PathBuf, Value)>,
-}
-
-/// All of it as JSON.
+/// All of it as JSON, with the files of a run: at communication points with all variables and the recorder's samples,
+/// the spectrum of the envelope, and orders with what there is to mark; `changes` says whether the shaft's speed does.
 ///
 /// # Errors
 /// Those of a profile's file.
-pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Result<Value> {
+pub(super) fn described(
+    model: &Model,
+    done: &Done,
+    envelope: Option<&Path>,
+    orders: Option<(PathBuf, Value)>,
+    changes: bool,
+    notes: &[String],
+) -> Result<Value> {
     let scene = &model.scene;
     let bearing = &scene.bearing;
     let surfaces = Surface::load_all(scene, model.profile_texts())?;
@@ -68,14 +63,14 @@ pub(super) fn described(model: &Model, files: &Files, notes: &[String]) -> Resul
         "inner_radius": bearing.inner_raceway_radius(),
         "passage": 1.0 / Frequencies::of(model.simulation.scene()).bpfo.abs().max(1.0),
         "sensor": if scene.sensors.is_empty() { "housing.ay".to_owned() } else { scene.sensor_variable(0) },
-        "changes": files.changes,
+        "changes": changes,
         "turns": scene.housing_speed.is_some(),
         "section": section(model),
-        "signals": files.signals.path(),
-        "recording": files.recording.map(Signals::path),
+        "signals": done.signals.path(),
+        "recording": done.recording.as_ref().map(Signals::path),
         "recorder_rate": scene.recorder.map(|recorder| recorder.rate),
-        "envelope": files.envelope,
-        "orders": files.orders.map(|(path, said)| json!({ "file": path, "said": said })),
+        "envelope": envelope,
+        "orders": orders.map(|(path, said)| json!({ "file": path, "said": said })),
         "defects": defects.collect::<Vec<_>>(),
         "notes": notes,
     }))

@@ -58,7 +58,8 @@ impl<'a> Spectra<'a> {
         };
         let Some(envelope) = envelope else { return Ok(None) };
         let path = folder.join(format!("{}-envelope.csv", self.scene.name));
-        write(&path, [("frequency", "Hz"), ("amplitude", "1")], [&envelope.frequency, &envelope.amplitude])?;
+        csv::table(&path, &[("frequency", "Hz"), ("amplitude", "1")], &[&envelope.frequency, &envelope.amplitude])?;
+        println!("{}", path.display());
         let mut description = json!({
             "band_hz": [envelope.band.low, envelope.band.high],
             "line_width_hz": envelope.line_width,
@@ -94,7 +95,8 @@ impl<'a> Spectra<'a> {
         }
         let spectrum = OrderSpectrum::of(&self.acceleration.samples, angles, HIGHEST_ORDER);
         let path = folder.join(format!("{}-orders.csv", self.scene.name));
-        write(&path, [("order", "1"), ("amplitude", "m/s2")], [&spectrum.order, &spectrum.amplitude])?;
+        csv::table(&path, &[("order", "1"), ("amplitude", "m/s2")], &[&spectrum.order, &spectrum.amplitude])?;
+        println!("{}", path.display());
         let used = angles.used();
         let description = json!({
             "line_width": spectrum.line_width,
@@ -148,16 +150,4 @@ impl<'a> Spectra<'a> {
 /// What is marked, as multiples of `unit` (Hz).
 fn marks(of: &Frequencies, unit: f64) -> Value {
     json!({ "BPFO": of.bpfo / unit, "BPFI": of.bpfi / unit, "2 BSF": 2.0 * of.bsf / unit, "FTF": of.ftf / unit })
-}
-
-fn write(path: &Path, names: [(&str, &str); 2], columns: [&[f64]; 2]) -> Result<()> {
-    whole_file::write_with(path, |mut out| {
-        csv::header(&mut out, names.into_iter())?;
-        for (&x, &y) in columns[0].iter().zip(columns[1]) {
-            csv::row(&mut out, [x, y].into_iter())?;
-        }
-        Ok(())
-    })?;
-    println!("{}", path.display());
-    Ok(())
 }

@@ -11,20 +11,11 @@ use crate::shared::csv;
 /// Largest speed (Hz), as that of a scene.
 const LARGEST: f64 = 1e4;
 
-/// A speed at a time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Point {
-    /// (s)
-    time: f64,
-    /// (Hz)
-    speed: f64,
-}
-
 /// A speed that changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpeedProfile {
-    /// In the order of their times, which ascend from 0.
-    points: Vec<Point>,
+    /// Times (s), which ascend from 0, and speeds (Hz).
+    points: Vec<[f64; 2]>,
 }
 
 impl SpeedProfile {
@@ -40,16 +31,19 @@ impl SpeedProfile {
 
     fn parse(text: &str) -> Result<Self> {
         let (_, rows) = csv::pairs(text, "a speed profile", &[["time_s", "speed_hz"]])?;
-        let mut points: Vec<Point> = Vec::new();
-        for (line, row) in rows {
-            points.push(point(row, points.last().copied()).with_context(|| format!("line {line}"))?);
+        let (line, [begin, _]) = rows[0];
+        if begin != 0.0 {
+            bail!("line {line}: time_s is {begin}: the first must be 0, where runs begin");
         }
-        Ok(Self { points })
+        if let Some((line, [_, speed])) = rows.iter().find(|(_, [_, speed])| speed.abs() > LARGEST) {
+            bail!("line {line}: speed_hz is {speed}: it must be between -{LARGEST} and {LARGEST}; are they rev/min?");
+        }
+        Ok(Self { points: rows.into_iter().map(|(_, point)| point).collect() })
     }
 
     /// Its last time (s).
     pub fn end(&self) -> f64 {
-        self.points.last().map_or(0.0, |point| point.time)
+        self.points.last().map_or(0.0, |[time, _]| *time)
     }
 
     /// Refuses a run that goes on after the profile has ended (s).
@@ -63,9 +57,9 @@ impl SpeedProfile {
 
     /// Speed at a time (s) (Hz).
     pub fn hertz(&self, time: f64) -> f64 {
-        let after = self.points.partition_point(|point| point.time <= time).clamp(1, self.points.len() - 1);
-        let (from, to) = (self.points[after - 1], self.points[after]);
-        from.speed + (to.speed - from.speed) * ((time - from.time) / (to.time - from.time)).clamp(0.0, 1.0)
+        let after = self.points.partition_point(|[of, _]| *of <= time).clamp(1, self.points.len() - 1);
+        let ([begin, from], [end, to]) = (self.points[after - 1], self.points[after]);
+        from + (to - from) * ((time - begin) / (end - begin)).clamp(0.0, 1.0)
     }
 
     /// Speed at a time (s) (rad/s).
@@ -75,23 +69,8 @@ impl SpeedProfile {
 
     /// Whether the shaft keeps one speed.
     pub fn is_constant(&self) -> bool {
-        self.points.iter().all(|point| point.speed == self.points[0].speed)
+        self.points.iter().all(|[_, speed]| *speed == self.points[0][1])
     }
-}
-
-/// The point of a row of numbers after the row `before`.
-fn point([time, speed]: [f64; 2], before: Option<Point>) -> Result<Point> {
-    match before {
-        None if time != 0.0 => bail!("time_s is {time}: the first must be 0, where runs begin"),
-        Some(Point { time: last, .. }) if time <= last => {
-            bail!("time_s is {time}: it must be above {last}, that of the row before")
-        }
-        _ => {}
-    }
-    if speed.abs() > LARGEST {
-        bail!("speed_hz is {speed}: it must be between -{LARGEST} and {LARGEST}; are they rev/min?");
-    }
-    Ok(Point { time, speed })
 }
 
 #[cfg(test)]

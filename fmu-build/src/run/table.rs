@@ -10,9 +10,9 @@ use clap::ValueEnum;
 use parquet::basic::{Compression, Encoding, GzipLevel, Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::schema::types::{PrimitiveTypeBuilder, Type};
 
 use super::signals::Signals;
 use crate::shared::{csv, whole_file};
@@ -21,7 +21,7 @@ use crate::shared::{csv, whole_file};
 pub(crate) const GROUP: usize = 1 << 15;
 
 /// How much time is spent on packing, of 9: more makes files a hundredth smaller.
-pub(crate) const PACKING: u32 = 4;
+const PACKING: u32 = 4;
 
 /// What a table is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -83,30 +83,19 @@ fn as_npy(signals: &Signals, columns: &[Column], out: &mut (dyn Write + Send)) -
     signals.each_row(|row| Ok(order.iter().try_for_each(|&index| out.write_all(&row[index].to_le_bytes()))?))
 }
 
-/// Doubles with their bytes sorted by significance, which then pack well; each column's unit stands in the file's own
-/// metadata as `unit:<name>`, followed by `origin`.
+/// Doubles with their bytes sorted by significance, which then pack well.
 fn as_parquet(
     signals: &Signals,
     columns: &[Column],
     origin: &[(&str, &str)],
     out: &mut (dyn Write + Send),
 ) -> Result<()> {
-    let field = |column: &Column| {
-        let built = Type::primitive_type_builder(&signals.names()[column.index], Physical::DOUBLE);
-        Ok(Arc::new(built.with_repetition(Repetition::REQUIRED).build()?))
-    };
-    let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
-    let schema = Arc::new(Type::group_type_builder("run").with_fields(fields).build()?);
-    let pair = |key: String, value: &str| KeyValue::new(key, Some(value.to_owned()));
-    let units = columns.iter().map(|column| pair(format!("unit:{}", signals.names()[column.index]), column.unit));
-    let metadata = units.chain(origin.iter().map(|(key, value)| pair((*key).to_owned(), value))).collect();
-    let properties = WriterProperties::builder()
-        .set_dictionary_enabled(false)
-        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
-        .set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?))
-        .set_key_value_metadata(Some(metadata))
-        .build();
-    let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
+    let name = |column: &Column| signals.names()[column.index].as_str();
+    let field =
+        |column| Type::primitive_type_builder(name(column), Physical::DOUBLE).with_repetition(Repetition::REQUIRED);
+    let units = columns.iter().map(|column| (name(column), column.unit));
+    let sorted = WriterProperties::builder().set_dictionary_enabled(false).set_encoding(Encoding::BYTE_STREAM_SPLIT);
+    let mut writer = parquet_writer(out, sorted, "run", columns.iter().map(field), units, origin)?;
     let mut group = vec![Vec::with_capacity(GROUP); columns.len()];
     signals.each_row(|row| {
         for (values, column) in group.iter_mut().zip(columns) {
@@ -117,6 +106,26 @@ fn as_parquet(
     put(&mut group, &mut writer)?;
     writer.close()?;
     Ok(())
+}
+
+/// A Parquet file of these fields, packed. Its own metadata has each column's unit as `unit:<name>`, and then the pairs
+/// of `origin`.
+pub(crate) fn parquet_writer<'a, W: Write + Send>(
+    out: W,
+    properties: WriterPropertiesBuilder,
+    schema: &str,
+    fields: impl Iterator<Item = PrimitiveTypeBuilder<'a>>,
+    units: impl Iterator<Item = (&'a str, &'a str)>,
+    origin: &[(&str, &str)],
+) -> Result<SerializedFileWriter<W>> {
+    let fields = fields.map(|field| Ok(Arc::new(field.build()?))).collect::<Result<Vec<_>>>()?;
+    let schema = Arc::new(Type::group_type_builder(schema).with_fields(fields).build()?);
+    let pair = |key: String, value: &str| KeyValue::new(key, Some(value.to_owned()));
+    let units = units.map(|(name, unit)| pair(format!("unit:{name}"), unit));
+    let metadata = units.chain(origin.iter().map(|(key, value)| pair((*key).to_owned(), value))).collect();
+    let packed = properties.set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?));
+    let properties = packed.set_key_value_metadata(Some(metadata)).build();
+    Ok(SerializedFileWriter::new(out, schema, Arc::new(properties))?)
 }
 
 /// Writes the rows that have gathered, if any.

@@ -1,4 +1,4 @@
-//! Numbers of the command line: what is none is refused in plain words. Negative ones are taken for numbers, not for
+//! Numbers of the command line: invalid ones are refused in plain words. Negative ones are taken for numbers, not for
 //! options, so that the command itself says what is wrong with them. And numbers as people read them.
 
 use std::path::PathBuf;

@@ -4,6 +4,8 @@
 use std::env;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+
 /// The workspace's source and the folders for what is made.
 #[derive(Debug, Clone)]
 pub struct Project {
@@ -58,6 +60,24 @@ impl Project {
             None if kind == "demo" => "brinell-demo".into(),
             None => PathBuf::new(),
         }
+    }
+}
+
+/// Where results go, and whether they are drawn.
+#[derive(Debug, Args)]
+pub(crate) struct Drawn {
+    /// Folder for what is written [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Leave figures out; no Python is needed then
+    #[arg(long)]
+    pub(crate) no_figure: bool,
+}
+
+impl Drawn {
+    /// The folder; `results` is the one of the command.
+    pub(crate) fn folder(&self, project: &Project, results: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| project.results(results))
     }
 }
 

@@ -110,7 +110,7 @@ impl Python {
 
     fn lay_scripts(&self) -> Result<()> {
         fs::create_dir_all(&self.scripts).with_context(|| self.scripts.display().to_string())?;
-        SCRIPTS.iter().try_for_each(|&(name, text)| write_if_new(&self.scripts.join(name), text))
+        SCRIPTS.iter().try_for_each(|&(name, text)| whole_file::write_if_new(&self.scripts.join(name), text).map(drop))
     }
 
     /// Sets an environment variable for all scripts that run from now on.
@@ -276,12 +276,4 @@ fn last_lines(output: &Output) -> String {
 
 fn remove(path: &Path, how: impl FnOnce(&Path) -> std::io::Result<()>) -> Result<()> {
     if path.exists() { how(path).with_context(|| path.display().to_string()) } else { Ok(()) }
-}
-
-fn write_if_new(path: &Path, text: &str) -> Result<()> {
-    if fs::read_to_string(path).is_ok_and(|there| there == text) {
-        return Ok(());
-    }
-    // Another process that reads the old text goes on with it.
-    whole_file::write(path, text)
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use tempfile::{NamedTempFile, TempDir};
 
 use crate::interrupt::Temporary;
@@ -35,6 +35,34 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write_with(path, |out| Ok(out.write_all(bytes.as_ref())?))
 }
 
+/// Writes a file of these bytes unless it is there; whether it did.
+pub fn write_if_new(path: &Path, bytes: impl AsRef<[u8]>) -> Result<bool> {
+    // Another process that reads the old text goes on with it.
+    let is_new = !fs::read(path).is_ok_and(|there| there == bytes.as_ref());
+    if is_new {
+        write(path, bytes)?;
+    }
+    Ok(is_new)
+}
+
+/// Writes a file for the user and names it; one that is there stays.
+///
+/// # Errors
+/// That it is there; of writing.
+pub(crate) fn write_own(path: &Path, text: &str) -> Result<()> {
+    ensure!(!path.exists(), "{} is there already and stays as it is", path.display());
+    write(path, text)?;
+    println!("{}", path.display());
+    Ok(())
+}
+
+/// A file whose name is that of `stem`, which may hold dots, and this end.
+pub(crate) fn beside(stem: &Path, end: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(end);
+    name.into()
+}
+
 /// Writes a file by `fill`. Where the folder is missing it is made.
 ///
 /// # Errors
@@ -46,7 +74,7 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> Res
         _ => Path::new("."),
     };
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    let (_temporary, file) = Temporary::made(|| beside(path, folder), NamedTempFile::path).map_err(failed)?;
+    let (_temporary, file) = Temporary::made(|| temporary(path, folder), NamedTempFile::path).map_err(failed)?;
     let mut out = BufWriter::new(file);
     if let Err(error) = fill(&mut out) {
         // Only what went wrong with writing is the disk's.
@@ -95,7 +123,7 @@ pub fn take_out(file: &Path, folder: &Path) -> Result<PathBuf> {
 }
 
 /// A temporary file that is removed unless it is given a name.
-fn beside(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+fn temporary(path: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".");
     let mut builder = tempfile::Builder::new();

@@ -6,9 +6,9 @@
 use brinell_scene_file::SceneFileError;
 use toml::Value;
 
-use super::design::{Point, Run};
+use super::design::{Point, Run, drawn};
 use super::faults::Fault;
-use super::file::{Sweep, number};
+use super::file::{Entry, Sweep, number};
 use super::scenes::Base;
 
 /// Values of one key that are tried at most.
@@ -26,7 +26,7 @@ pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool
         let first = first(sweep, point, is_whole);
         let wrong = messages(base, sweep, &first);
         wrong.iter().for_each(|message| tell(about(sweep, message, 0)));
-        for (position, Others { key, line, values }) in others(sweep, is_whole).into_iter().enumerate() {
+        for (position, (key, line, values)) in others(sweep, is_whole).into_iter().enumerate() {
             for value in values {
                 let mut run = first.clone();
                 run.values[position] = (key.to_owned(), value);
@@ -56,31 +56,19 @@ pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool
 /// The run of a kind with the first value of every key.
 fn first(sweep: &Sweep, point: u64, is_whole: &dyn Fn(&str) -> bool) -> Run {
     let Point { kind, profile, mut values } = sweep.point(point, 0);
-    let low = |entry: &super::file::Entry<[f64; 2]>| {
-        (entry.key.clone(), super::design::drawn(entry.of, 0.0, is_whole(&entry.key)))
-    };
+    let low = |entry: &Entry<[f64; 2]>| (entry.key.clone(), drawn(entry.of, 0.0, is_whole(&entry.key)));
     values.extend(sweep.random.iter().map(low));
     Run { index: 0, kind, profile, values, noise: None }
 }
 
-/// The other values that runs have of a key, and its line.
-struct Others<'s> {
-    key: &'s str,
-    line: usize,
-    values: Vec<Value>,
-}
-
-/// Those of all keys, in the order of a run's values.
-fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Others<'s>> {
-    let grid = sweep.grid.iter().map(|entry| Others {
-        key: &entry.key,
-        line: entry.line,
-        values: entry.of.iter().skip(1).take(TRIED).cloned().collect(),
-    });
-    let random = sweep.random.iter().map(|entry| {
-        let [_, high] = entry.of;
-        let highest = super::design::drawn([high, high], 0.0, is_whole(&entry.key));
-        Others { key: &entry.key, line: entry.line, values: vec![highest] }
+/// Keys in the order of a run's values, each with its line and the other values that runs have of it.
+fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<(&'s str, usize, Vec<Value>)> {
+    let grid = sweep
+        .grid
+        .iter()
+        .map(|Entry { key, line, of }| (key.as_str(), *line, of.iter().skip(1).take(TRIED).cloned().collect()));
+    let random = sweep.random.iter().map(|&Entry { ref key, line, of: [_, high] }| {
+        (key.as_str(), line, vec![drawn([high, high], 0.0, is_whole(key))])
     });
     grid.chain(random).collect()
 }

@@ -21,12 +21,13 @@ use std::sync::Mutex;
 
 use anyhow::{Context, Result, bail};
 use brinell::scene::Experiment;
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use crate::interrupt::{Held, Interrupted};
 use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::speed_profile::SpeedProfile;
-use crate::shared::{Grid, Project, note, talk, whole_file};
+use crate::shared::{Grid, Project, note, seed, talk, whole, whole_file};
 pub(crate) use design::Part;
 use faults::{Fault, Faults};
 use file::Sweep;
@@ -40,15 +41,26 @@ use scenes::Base;
 /// The table of a sweep.
 const TABLE: &str = "runs.parquet";
 
-/// What the user says beside the file.
-#[derive(Debug, Clone)]
-pub(crate) struct Options {
-    /// Runs at once.
-    pub(crate) jobs: usize,
-    /// What signals are written as; `None` for not at all.
-    pub(crate) signals: Option<SignalFormat>,
-    /// The part of the runs that is made here; `None` for all.
-    pub(crate) part: Option<Part>,
+/// Options of `sweep`.
+#[derive(Debug, Args)]
+pub struct Asked {
+    /// File of the sweep (TOML): which scene is run, and what changes from run to run
+    file: PathBuf,
+    /// Folder for the table; a sweep that was interrupted goes on in it [default: named after the file]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Runs at once [default: as many as there are cores]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 4096>)]
+    jobs: Option<u32>,
+    /// Write the signals of the runs as well [default format: npy]
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "npy")]
+    signals: Option<SignalFormat>,
+    /// Make part K of N only, on any machine; the same command without it joins all parts in the folder
+    #[arg(long, value_name = "K/N")]
+    part: Option<Part>,
+    /// Print the scene of one run, which `brinell run` takes, and run nothing
+    #[arg(long, value_name = "RUN", allow_negative_numbers = true, value_parser = seed)]
+    scene_of: Option<u64>,
 }
 
 /// A sweep that was read and can be run.
@@ -65,7 +77,15 @@ struct Planned {
 
 /// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A
 /// part goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
-pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder: &Path) -> Result<()> {
+pub(crate) fn command(project: &Project, options: &Asked) -> Result<()> {
+    let file = &options.file;
+    if let Some(run) = options.scene_of {
+        return print_scene(file, run);
+    }
+    let of_file = || project.results("sweep").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref()));
+    let folder = &options.output.clone().unwrap_or_else(of_file);
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = options.jobs.map_or_else(cores, |jobs| jobs as usize);
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;
     let columns = rows::columns::columns(sweep, &|key| planned.is_whole(key));
@@ -93,14 +113,14 @@ pub(crate) fn command(project: &Project, file: &Path, options: &Options, folder:
     let wanted: Vec<u64> =
         (0..sweep.runs).filter(|&run| options.part.is_none_or(|part| part.place(run).is_some())).collect();
     let missing = Missing::of(&rows, &wanted, &folder);
-    let (maps, fingerprints) = prepare(project, &planned, &runner, &missing.runs, options.jobs)?;
+    let (maps, fingerprints) = prepare(project, &planned, &runner, &missing.runs, jobs)?;
     let _held = Held::new();
     let bar = bar(wanted.len() as u64, (wanted.len() - missing.runs.len()) as u64);
     // The table is written now and then, whenever there is a quarter more of it.
     let mut next = rows.len() + rows.len() / 4 + 100;
     let mut counts = Counts { made: 0, again: 0, failed: 0 };
     let job = |k: usize| runner.row(&planned.run(missing.runs[k]), &maps, &fingerprints[k]);
-    workers::each(options.jobs, missing.runs.len(), job, |k, row| {
+    workers::each(jobs, missing.runs.len(), job, |k, row| {
         let row = match row {
             // Of a run under way when the user ended the sweep nothing is kept.
             Err(error) if error.is::<Interrupted>() => return Ok(()),
@@ -187,7 +207,7 @@ impl Counts {
 }
 
 /// Prints the scene of a run as a file that `brinell run` takes.
-pub(crate) fn print_scene(file: &Path, run: u64) -> Result<()> {
+fn print_scene(file: &Path, run: u64) -> Result<()> {
     let planned = Planned::read(file)?;
     if run >= planned.sweep.runs {
         bail!("run {run}: the sweep has runs 0 to {}", planned.sweep.runs - 1);

@@ -7,14 +7,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use brinell::simulation::{Method, StepCounts};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Extent;
 use super::machine::{fastest, timed};
 use super::run::{Deviation, STEP, Signals, Subject};
 use crate::packed::{self, Packed};
 use fmu_build::package::Model;
-use fmu_build::shared::{Project, whole_file};
+use fmu_build::shared::{Project, bar, whole_file};
 
 /// Simulated time (s): long enough for an element to pass the spall of the ER16K, short enough for elements that bounce
 /// freely not to have lost all memory of the start.
@@ -91,7 +90,8 @@ pub(super) fn measure(project: &Project, extent: Extent, data: &Path) -> Result<
     let library = packed::library(project)?;
     let rounds = if extent == Extent::Full { ROUNDS } else { 1 };
     let runs = METHODS.len() * tolerances.len();
-    let bar = bar((names.len() * (2 + (1 + rounds) * runs)) as u64);
+    let steps = names.len() * (2 + (1 + rounds) * runs);
+    let bar = bar(steps as u64, "integration [{bar:30}] {pos}/{len}, {elapsed} {msg}");
     let mut results = Integration { rows: Vec::new(), checks: Vec::new(), stop: STOP };
     let mut scenes = Vec::new();
     for name in names {
@@ -130,14 +130,6 @@ pub(super) fn measure(project: &Project, extent: Extent, data: &Path) -> Result<
     bar.finish_and_clear();
     write(&data.join("integration.csv"), &results.rows)?;
     Ok(results)
-}
-
-fn bar(length: u64) -> ProgressBar {
-    let bar = ProgressBar::new(length);
-    match ProgressStyle::with_template("integration [{bar:30}] {pos}/{len}, {elapsed} {msg}") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
 }
 
 /// Error and steps of a run, not yet timed.

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use brinell::scene::ContactLaw;
-use brinell_analysis::sizing::waveform::Ringing;
-use fmu_build::paper::averages::{PANELS, averaged, expected, least_stiffness, rings, times};
+use brinell::scene::{ContactLaw, DefectShape};
+use brinell_analysis::sizing::waveform::{Rig, Ringing, Trial, ringing};
+use brinell_analysis::statics::StaticBearing;
+use fmu_build::paper::averages::{PANELS, averaged, rings, times};
 use fmu_build::paper::{Case, LAWS};
 
 use super::{Values, write_csv};
@@ -62,4 +63,21 @@ fn lighter(project: &Project) -> Result<String> {
 
 fn shown(ringing: Option<Ringing>) -> String {
     ringing.map_or("–".to_owned(), |r| format!("{:.0} / {:.0}", r.after_entry, r.after_exit))
+}
+
+/// The rings' mode on the static stiffness of this spall.
+fn expected(case: &Case) -> Option<Ringing> {
+    let spacing = 360.0 / case.scene.bearing.element_count as f64;
+    let Some(DefectShape::Spall { depth, .. }) = case.scene.defects.first().map(|defect| defect.shape.clone()) else {
+        return None;
+    };
+    let rig = Rig::new(&case.scene, case.bpfo(), &|_| None)?;
+    ringing::expected(&rig, Trial { length: case.length(), depth, law: ContactLaw::Hertz }, spacing).ok()
+}
+
+/// Stiffness along the load with two elements about the middle of the spall (N/µm).
+fn least_stiffness(case: &Case) -> Result<f64> {
+    let bearing = StaticBearing::new(&case.clone().with_law(ContactLaw::Hertz).scene, None)?;
+    let angle = -std::f64::consts::FRAC_PI_2 - if case.length() > 40.0 { 0.5 * bearing.spacing() } else { 0.0 };
+    Ok(1e-6 * bearing.balance(angle, bearing.load())?.free_stiffness())
 }

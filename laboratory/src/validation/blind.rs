@@ -8,7 +8,7 @@ use brinell::scene::Scene;
 use brinell_analysis::recording::Recording;
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::{Report, Verdict};
-use brinell_analysis::statistics::Random;
+use brinell_analysis::statistics::{Random, rms};
 
 use super::Values;
 use fmu_build::paper::Case;
@@ -85,8 +85,7 @@ fn sized(project: &Project, case: &Case, signal: Vec<f64>, speed: f64) -> Result
 }
 
 fn with_noise(signal: &[f64], noise: f64) -> Vec<f64> {
-    let rms = (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
-    let mut random = Random::new(1);
+    let (rms, mut random) = (rms(signal), Random::new(1));
     signal.iter().map(|x| x + noise * rms * random.normal()).collect()
 }
 

@@ -4,10 +4,9 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use brinell::scene::ContactLaw;
-use fmu_build::paper::{Case, Epps, FourEvents, LAWS, Passage, passage};
+use fmu_build::paper::{self, Epps, FourEvents};
 
-use super::{Values, write_csv};
+use super::{Values, folder};
 use fmu_build::shared::Project;
 
 /// A row of the table of events: its name, the prototype's figure, and how ours is read.
@@ -16,17 +15,7 @@ type Event = (&'static str, &'static str, fn(&FourEvents) -> f64);
 /// Fills in `four_events` and `epps`, and writes what the figures show.
 pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
     let mut table = String::new();
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    let mut found = Vec::new();
-    for law in LAWS {
-        let case = Case::shipped("er16k-tb1")?.with_law(law);
-        let passage = Passage::of(project, &case, case.length(), [2e-3, 22e-3])?;
-        found.push(FourEvents::of(&passage, case.length() / case.travel()));
-        if columns.is_empty() {
-            columns.push(passage.time);
-        }
-        columns.extend(passage.signals);
-    }
+    let found = paper::four_events(project, &folder(project))?;
     let rows: [Event; 6] = [
         ("element free of load after the leading edge (ms)", "0.6", |e| 1e3 * e.free),
         ("first strike of the floor after the leading edge (ms)", "weak", |e| 1e3 * e.floor),
@@ -36,40 +25,29 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         ("greatest force on the element at the exit (N)", "≈ 400", |e| e.peak),
     ];
     for (label, prototype, of) in rows {
-        let ours = found.iter().map(|e| format!("{:.*}", if of(e) > 50.0 { 0 } else { 2 }, of(e)));
+        let ours = found.iter().map(|(e, _)| format!("{:.*}", if of(e) > 50.0 { 0 } else { 2 }, of(e)));
         writeln!(table, "| {label} | {prototype} | {} |", ours.collect::<Vec<_>>().join(" | "))?;
     }
     values.set("four_events", table)?;
-    write_csv(project, "four-events", &passage::columns(&["map", "hertz"]), &columns)?;
     epps(project, values)
 }
 
 fn epps(project: &Project, values: &mut Values) -> Result<()> {
-    let shipped = Case::shipped("6205-epps")?;
+    let shipped = paper::epps_profile(&folder(project))?;
     let sharp = shipped.clone().with_spall(Epps::degrees(&shipped), 100e-6);
+    let found = paper::epps(project, &[("trace", &shipped), ("sharp", &sharp)], &folder(project))?;
+    let labels = ["trace, map", "trace, hertz", "90° edges, map", "90° edges, hertz"];
     let mut table = String::new();
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    for (shape, case) in [("trace", &shipped), ("90° edges", &sharp)] {
-        for law in LAWS {
-            let Epps { passage, drop, deepest, traverse, force: [before, least, peak], rings } =
-                Epps::of(project, &case.clone().with_law(law))?;
-            let law = if law == ContactLaw::Map { "map" } else { "hertz" };
-            writeln!(
-                table,
-                "| {shape}, {law} | {:.1} | {:.1} | {:.2} | {before:.0} → {least:.0} → {peak:.0} | {} |",
-                1e6 * drop,
-                1e6 * deepest,
-                1e3 * traverse,
-                rings.map_or("–".to_owned(), |f| format!("{f:.0}")),
-            )?;
-            if columns.is_empty() {
-                columns.push(passage.time);
-            }
-            columns.extend(passage.signals);
-        }
+    for (label, Epps { drop, deepest, traverse, force: [before, least, peak], rings, .. }) in labels.iter().zip(&found)
+    {
+        writeln!(
+            table,
+            "| {label} | {:.1} | {:.1} | {:.2} | {before:.0} → {least:.0} → {peak:.0} | {} |",
+            1e6 * drop,
+            1e6 * deepest,
+            1e3 * traverse,
+            rings.map_or("–".to_owned(), |f| format!("{f:.0}")),
+        )?;
     }
-    values.set("epps", table)?;
-    write_csv(project, "epps", &passage::columns(&["trace map", "trace hertz", "sharp map", "sharp hertz"]), &columns)?;
-    let (names, columns) = passage::profile(&shipped)?;
-    write_csv(project, "profile", &names, &columns)
+    values.set("epps", table)
 }

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::Scene;
+use brinell::scene::{Defect, DefectShape, Scene};
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::passages::fold;
@@ -82,7 +82,10 @@ impl Known {
 pub fn table(project: &Project, known: &[Known], rate: f64) -> Result<String> {
     let case = Case::shipped(SCENE)?;
     let [length, depth, slope] = FLANKS;
-    let with_flanks = case.clone().with_flanks(length, depth, slope);
+    let mut with_flanks = case.clone().with_spall(length, depth);
+    if let Some(Defect { shape: DefectShape::Spall { edge_slope, .. }, .. }) = with_flanks.scene.defects.first_mut() {
+        *edge_slope = slope.to_radians();
+    }
     let scene = Scene { defects: Vec::new(), ..case.scene.clone() };
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let read = |known: &Known| -> Result<Recording> {

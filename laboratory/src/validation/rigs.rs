@@ -8,6 +8,7 @@ use std::fmt::Write;
 use std::ops::Range;
 
 use anyhow::Result;
+use brinell::scene::{Bearing, Scene};
 use brinell_analysis::recording::{Recording, SizingError};
 use brinell_analysis::sizing;
 use brinell_analysis::sizing::{Fault, Raceway};
@@ -118,25 +119,8 @@ fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
     let rig = SyntheticRig::draw(&mut random);
     let (count, element, pitch) = BEARINGS[if random.uniform() < 0.5 { 0 } else { random.below(BEARINGS.len()) }];
     let load = rig.load * libm::exp(0.3 * random.normal());
-    let scene = brinell_scene_file::from_toml(&format!(
-        "name = \"rig\"
-        [bearing]
-        element_count = {count}
-        element_diameter_mm = {element}
-        pitch_diameter_mm = {pitch}
-        conformity_inner = 0.52
-        conformity_outer = 0.52
-        radial_clearance_um = 5.0
-        youngs_modulus_gpa = 207.0
-        poissons_ratio = 0.3
-        density_kg_m3 = 7800.0
-        [shaft]
-        motion = \"internal\"
-        speed_hz = 10.0
-        load_n = [0.0, -{load}]
-        [housing]
-        motion = \"internal\""
-    ))?;
+    let bearing = Bearing::steel_balls(count, 1e-3 * element, 1e-3 * pitch);
+    let scene = Scene::builder(bearing).shaft_load([0.0, -load]).build()?;
     let signal = rig.record(&scene.bearing, raceway, length, &mut random);
     let recording = Recording::new("synthetic", signal, rig.rate, rig.speed)?;
     match sizing::size(&[recording], &scene) {

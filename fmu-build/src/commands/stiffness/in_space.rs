@@ -6,11 +6,12 @@ use std::path::Path;
 use anyhow::Result;
 use brinell_analysis::modes::loaded;
 use brinell_analysis::statics::{BalanceInSpace, BearingInSpace};
+use brinell_analysis::statistics;
 use serde_json::json;
 
-use super::{Options, beside, enough_points};
+use super::{Options, enough_points};
 use crate::package::Model;
-use crate::shared::{Project, contact_map, csv};
+use crate::shared::{Project, contact_map, csv, whole_file};
 
 const COORDINATES: [&str; 5] = ["x", "y", "z", "tilt_x", "tilt_y"];
 
@@ -21,10 +22,10 @@ pub(super) fn command(project: &Project, model: &Model, options: Options, folder
     let bearing = BearingInSpace::new(&scene, model.profile_texts(), map.as_deref())?;
     let balances = bearing
         .sweep(scene.cage.initial_angle, options.points.unwrap_or_else(|| enough_points(bearing.period(), None)))?;
-    let path = beside(&folder.join(&scene.name), "-stiffness.csv");
+    let path = whole_file::beside(&folder.join(&scene.name), "-stiffness.csv");
     let (names, columns) = table(&balances, bearing.order());
     csv::table(&path, &names, &columns)?;
-    options.tell(format_args!("{}\n", path.display()));
+    options.name(&path);
     if options.json {
         println!("{}", serde_json::to_string_pretty(&summary_json(&balances, bearing.order()))?);
     } else {
@@ -60,14 +61,9 @@ fn table(balances: &[BalanceInSpace], order: usize) -> (Vec<(String, &'static st
     (names, columns)
 }
 
-/// Least and greatest of some numbers.
-fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
-}
-
-/// Those of a quantity of all balances.
+/// Least and greatest of a quantity of all balances.
 fn extent(balances: &[BalanceInSpace], of: impl Fn(&BalanceInSpace) -> f64) -> [f64; 2] {
-    ends(balances.iter().map(of))
+    statistics::extent(balances.iter().map(of))
 }
 
 fn largest_force(at: &BalanceInSpace) -> f64 {
@@ -77,7 +73,7 @@ fn largest_force(at: &BalanceInSpace) -> f64 {
 /// Least and greatest contact angle (rad) of the loaded balls.
 fn contact_angles(balances: &[BalanceInSpace]) -> [f64; 2] {
     let loaded = balances.iter().flat_map(|at| &at.balls).filter(|ball| ball.forces[0] > 0.0);
-    ends(loaded.map(|ball| ball.contact_angles[0]))
+    statistics::extent(loaded.map(|ball| ball.contact_angles[0]))
 }
 
 fn summary(balances: &[BalanceInSpace], order: usize) -> String {

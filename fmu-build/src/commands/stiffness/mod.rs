@@ -4,8 +4,7 @@
 mod in_space;
 
 use std::f64::consts::PI;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Result, bail};
 use brinell::scene::{Bearing, ContactLaw, DefectOn, DegreesOfFreedom, Scene};
@@ -32,9 +31,14 @@ pub struct Options {
 }
 
 impl Options {
-    /// Names what was written, unless standard output is for JSON.
+    /// Says what was written, unless standard output is for JSON.
     pub(crate) fn tell(&self, what: impl std::fmt::Display) {
         if self.json { eprint!("{what}") } else { print!("{what}") }
+    }
+
+    /// Names a file that was written.
+    pub(crate) fn name(&self, path: &Path) {
+        self.tell(format_args!("{}\n", path.display()));
     }
 
     /// Refuses a load that is none.
@@ -79,24 +83,22 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let balances = sweep(&bearing, first, points)?;
 
     let stem = folder.join(&model.scene.name);
-    let path = beside(&stem, "-stiffness.csv");
-    whole_file::write_with(&path, |mut out| write_sweep(&mut out, &plain, &healthy, &balances))?;
-    options.tell(format_args!("{}\n", path.display()));
+    let path = whole_file::beside(&stem, "-stiffness.csv");
+    write_sweep(&path, &plain, &healthy, &balances)?;
+    options.name(&path);
 
     if let Some(angle) = under_load {
-        let path = beside(&stem, "-shaft-stiffness.csv");
-        whole_file::write_with(&path, |mut out| write_over_shaft(&mut out, &bearing, angle))?;
-        options.tell(format_args!("{}\n", path.display()));
+        let path = whole_file::beside(&stem, "-shaft-stiffness.csv");
+        write_over_shaft(&path, &bearing, angle)?;
+        options.name(&path);
     }
 
     let critical = bottom.as_ref().map(|bottom| anyhow::Ok((bottom, plain.critical_load()?))).transpose()?;
     if let Some((bottom, Ok(critical))) = &critical {
-        let path = beside(&stem, "-critical-load.csv");
+        let path = whole_file::beside(&stem, "-critical-load.csv");
         let Bearing { radial_clearance, outer_compliance, .. } = model.scene.bearing;
-        whole_file::write_with(&path, |mut out| {
-            write_variations(&mut out, &plain, bottom, critical, radial_clearance, outer_compliance)
-        })?;
-        options.tell(format_args!("{}\n", path.display()));
+        write_variations(&path, &plain, bottom, critical, radial_clearance, outer_compliance)?;
+        options.name(&path);
     }
     let critical = critical.as_ref().map(|(bottom, critical)| (*bottom, critical.as_ref()));
     if options.json {
@@ -148,13 +150,8 @@ fn bottom_of(bearing: &StaticBearing) -> Result<Option<Bottom>> {
     }
 }
 
-fn write_sweep(
-    out: &mut impl Write,
-    plain: &StaticBearing,
-    healthy: &StaticBearing,
-    balances: &[Balance],
-) -> Result<()> {
-    let mut names: Vec<(String, &str)> = [
+fn write_sweep(path: &Path, plain: &StaticBearing, healthy: &StaticBearing, balances: &[Balance]) -> Result<()> {
+    let names = [
         ("cage.angle", "rad"),
         ("stiffness.free", "N/m"),
         ("stiffness.held", "N/m"),
@@ -170,18 +167,11 @@ fn write_sweep(
         ("load_zone", "rad"),
         ("critical_load", "N"),
     ]
-    .map(|(name, unit)| (name.to_owned(), unit))
-    .to_vec();
-    for j in 1..=plain.element_count() {
-        names.extend([
-            (format!("element[{j}].angle"), "rad"),
-            (format!("element[{j}].force.inner"), "N"),
-            (format!("element[{j}].force.outer"), "N"),
-            (format!("element[{j}].in_defect"), "1"),
-        ]);
-    }
-    csv::header(out, names.iter().map(|(name, unit)| (name.as_str(), *unit)))?;
-    for balance in balances {
+    .map(|(name, unit)| (name.to_owned(), unit));
+    let of_element = [("angle", "rad"), ("force.inner", "N"), ("force.outer", "N"), ("in_defect", "1")];
+    let of_elements =
+        (1..=plain.element_count()).flat_map(|j| of_element.map(|(name, unit)| (format!("element[{j}].{name}"), unit)));
+    let rows = balances.iter().map(|balance| {
         let without = healthy.balance(balance.cage_angle, balance.load)?;
         let critical = plain.critical_load_at(balance.cage_angle)?.map_or(f64::NAN, |critical| critical.load);
         let [[xx, xy], [yx, yy]] = balance.stiffness;
@@ -190,48 +180,40 @@ fn write_sweep(
             vec![balance.cage_angle, balance.free_stiffness(), balance.held_stiffness(), without.free_stiffness()];
         row.extend([xx, xy, yx, yy, x, y, load_x, load_y, balance.load_zone, critical]);
         for element in &balance.elements {
-            row.extend([
-                element.angle,
-                element.inner_force,
-                element.outer_force,
-                f64::from(u8::from(element.in_defect)),
-            ]);
+            let in_defect = f64::from(u8::from(element.in_defect));
+            row.extend([element.angle, element.inner_force, element.outer_force, in_defect]);
         }
-        csv::row(out, row.into_iter())?;
-    }
-    Ok(())
+        Ok(row)
+    });
+    csv::write(path, names.into_iter().chain(of_elements), rows)
 }
 
 /// Stiffness along the load over the inner ring's angle, counted from that at which its defect is under the load:
 /// least, mean and greatest over the cage angle.
-fn write_over_shaft(out: &mut impl Write, bearing: &StaticBearing, under_load: f64) -> Result<()> {
-    let names = ["least", "mean", "greatest"].map(|which| (format!("stiffness.free.{which}"), "N/m"));
-    let columns = [("shaft.angle", "rad")].into_iter().chain(names.iter().map(|(name, unit)| (name.as_str(), *unit)));
-    csv::header(out, columns)?;
-    for i in 0..=SHAFT_ANGLES {
+fn write_over_shaft(path: &Path, bearing: &StaticBearing, under_load: f64) -> Result<()> {
+    let names = ["shaft.angle", "stiffness.free.least", "stiffness.free.mean", "stiffness.free.greatest"];
+    let rows = (0..=SHAFT_ANGLES).map(|i| {
         let angle = PI * (2.0 * i as f64 / SHAFT_ANGLES as f64 - 1.0);
-        let turned = bearing.with_shaft_angle(under_load + angle);
-        let balances = sweep(&turned, 0.0, CAGE_ANGLES)?;
-        let values = min_mean_max(&balances, Balance::free_stiffness);
-        csv::row(out, [angle].into_iter().chain(values))?;
-    }
-    Ok(())
+        let balances = sweep(&bearing.with_shaft_angle(under_load + angle), 0.0, CAGE_ANGLES)?;
+        Ok([angle].into_iter().chain(min_mean_max(&balances, Balance::free_stiffness)))
+    });
+    csv::write(path, names.into_iter().zip(["rad", "N/m", "N/m", "N/m"]), rows)
 }
 
 /// Three blocks, in each of which one of path, clearance and compliance varies and the others are the scene's.
 fn write_variations(
-    out: &mut impl Write,
+    path: &Path,
     bearing: &StaticBearing,
     bottom: &Bottom,
     critical: &CriticalLoad,
     clearance: f64,
     compliance: f64,
 ) -> Result<()> {
-    let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
-    csv::header(out, names.into_iter())?;
+    let mut rows = Vec::new();
     let mut row = |varied: f64, path: f64, clearance: f64, compliance: f64, bearing: &StaticBearing| -> Result<()> {
         let critical = bearing.critical_load()?.map_or(f64::NAN, |critical| critical.load);
-        Ok(csv::row(out, [varied, path, clearance, compliance, critical].into_iter())?)
+        rows.push(Ok([varied, path, clearance, compliance, critical]));
+        Ok(())
     };
     for factor in DEPTHS {
         match bearing.with_depth_times(factor) {
@@ -248,16 +230,16 @@ fn write_variations(
         row(1.0, bottom.path, clearance, compliance, &bearing.with_clearance(clearance))?;
     }
     let rigid = bearing.with_outer_compliance(0.0).critical_load()?.map_or(critical.load, |critical| critical.load);
-    if rigid == 0.0 {
-        // An element is at the bottom without any load: no compliance has a say.
-        return Ok(());
+    // Where an element is at the bottom without any load, no compliance has a say.
+    if rigid != 0.0 {
+        let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
+        for i in 0..VARIATIONS {
+            let compliance = softest * part(i);
+            row(2.0, bottom.path, clearance, compliance, &bearing.with_outer_compliance(compliance))?;
+        }
     }
-    let softest = (4.0 * bottom.path / rigid).max(2.0 * compliance);
-    for i in 0..VARIATIONS {
-        let compliance = softest * part(i);
-        row(2.0, bottom.path, clearance, compliance, &bearing.with_outer_compliance(compliance))?;
-    }
-    Ok(())
+    let names = [("varied", "1"), ("path", "m"), ("clearance", "m"), ("compliance", "m/N"), ("critical_load", "N")];
+    csv::write(path, names, rows)
 }
 
 /// What [`summary`] says, in SI units except for degrees.
@@ -325,10 +307,4 @@ fn summary(
         text += &format!("  the middle of the defect is {:.1} degrees from the direction of the load\n", aside.abs());
     }
     Ok(text)
-}
-
-pub(crate) fn beside(stem: &Path, end: &str) -> PathBuf {
-    let mut name = stem.as_os_str().to_owned();
-    name.push(end);
-    name.into()
 }

@@ -129,7 +129,7 @@ impl Reading<'_, '_> {
             (0.0..stop).contains(&value)
         });
         let rate = self.number("rate_hz", 51_200.0, "from 100 to 1000000", |value| RATES.contains(&value));
-        let filter = self.switch("filter");
+        let filter = self.read("filter", "true or false", Value::as_bool).unwrap_or(false);
         let (kinds, speed_profiles, noise) = (self.kinds(), self.texts("speed_profiles"), self.noise());
         let (set, mut grid, random) = (self.entries("set"), self.grid(), self.random());
         let growth = self.growth();
@@ -195,55 +195,38 @@ impl Reading<'_, '_> {
         self.fault(self.line_of(key), format!("{key} is {value}: it must be {limit}"));
     }
 
-    fn number(&mut self, key: &str, usual: f64, limit: &str, fits: impl Fn(f64) -> bool) -> f64 {
-        let Some(value) = self.values.get(key) else { return usual };
-        match number(value).filter(|&number| fits(number)) {
-            Some(number) => number,
-            None => {
-                self.wrong(key, value, &format!("a number, {limit}"));
-                usual
-            }
+    /// What a key's value is read as; `None` where it is missing, or wrong, which is told by what it must be.
+    fn read<T>(&mut self, key: &str, limit: &str, of: impl FnOnce(&Value) -> Option<T>) -> Option<T> {
+        let value = self.values.get(key)?;
+        let read = of(value);
+        if read.is_none() {
+            self.wrong(key, value, limit);
         }
+        read
+    }
+
+    fn number(&mut self, key: &str, usual: f64, limit: &str, fits: impl Fn(f64) -> bool) -> f64 {
+        let limit = format!("a number, {limit}");
+        self.read(key, &limit, |value| number(value).filter(|&number| fits(number))).unwrap_or(usual)
     }
 
     fn whole(&mut self, key: &str, least: u64, most: u64) -> Option<u64> {
-        let value = self.values.get(key)?;
-        let whole = value.as_integer().and_then(|whole| u64::try_from(whole).ok());
-        let fitting = whole.filter(|whole| (least..=most).contains(whole));
-        if fitting.is_none() {
-            self.wrong(key, value, &format!("a whole number from {least} to {most}"));
-        }
-        fitting
-    }
-
-    fn switch(&mut self, key: &str) -> bool {
-        let Some(value) = self.values.get(key) else { return false };
-        value.as_bool().unwrap_or_else(|| {
-            self.wrong(key, value, "true or false");
-            false
-        })
+        let whole = |value: &Value| value.as_integer().and_then(|whole| u64::try_from(whole).ok());
+        let limit = format!("a whole number from {least} to {most}");
+        self.read(key, &limit, |value| whole(value).filter(|whole| (least..=most).contains(whole)))
     }
 
     fn text(&mut self, key: &str) -> Option<String> {
-        let value = self.values.get(key)?;
-        let text = value.as_str().filter(|text| !text.trim().is_empty());
-        if text.is_none() {
-            self.wrong(key, value, "a text in quotes");
-        }
-        text.map(str::to_owned)
+        let text = |value: &Value| value.as_str().filter(|text| !text.trim().is_empty()).map(str::to_owned);
+        self.read(key, "a text in quotes", text)
     }
 
     fn texts(&mut self, key: &str) -> Vec<String> {
-        let Some(value) = self.values.get(key) else { return Vec::new() };
-        let texts =
-            value.as_array().map(|all| all.iter().filter_map(Value::as_str).map(str::to_owned).collect::<Vec<_>>());
-        match texts.filter(|texts| !texts.is_empty() && value.as_array().is_some_and(|all| all.len() == texts.len())) {
-            Some(texts) => texts,
-            None => {
-                self.wrong(key, value, "a list of texts in quotes");
-                Vec::new()
-            }
-        }
+        let texts = |value: &Value| {
+            let all = value.as_array().filter(|all| !all.is_empty())?;
+            all.iter().map(|one| one.as_str().map(str::to_owned)).collect()
+        };
+        self.read(key, "a list of texts in quotes", texts).unwrap_or_default()
     }
 
     fn kinds(&mut self) -> Vec<Kind> {
@@ -267,53 +250,40 @@ impl Reading<'_, '_> {
         let ratio = self.limits("noise_db", RATIOS, limit);
         let limit = "a root mean square, or a list of two, the lower one first, from 1e-9 to 1e6";
         let floor = self.limits("noise_rms_m_s2", FLOORS, limit);
-        let color = match self.text("noise_color").as_deref() {
-            None | Some("white") => Color::White,
-            Some("pink") => Color::Pink,
-            Some(_) => {
-                self.wrong("noise_color", &self.values["noise_color"], "\"white\" or \"pink\"");
-                Color::White
-            }
-        };
-        NoiseLimits { ratio, floor, color }
+        let color = self.read("noise_color", "\"white\" or \"pink\"", |value| match value.as_str()? {
+            "white" => Some(Color::White),
+            "pink" => Some(Color::Pink),
+            _ => None,
+        });
+        NoiseLimits { ratio, floor, color: color.unwrap_or_default() }
     }
 
     /// A number, or two between which one is drawn.
     fn limits(&mut self, key: &str, range: RangeInclusive<f64>, limit: &str) -> Option<[f64; 2]> {
-        let value = self.values.get(key)?;
-        let limits = number(value).map(|number| [number; 2]).or_else(|| pair(value));
-        let fitting = limits.filter(|[low, high]| low <= high && range.contains(low) && range.contains(high));
-        if fitting.is_none() {
-            self.wrong(key, value, limit);
-        }
-        fitting
+        let is_one = |[low, high]: &[f64; 2]| low <= high && range.contains(low) && range.contains(high);
+        self.read(key, limit, |value| number(value).map(|number| [number; 2]).or_else(|| pair(value)).filter(is_one))
     }
 
     fn grid(&mut self) -> Vec<Entry<Vec<Value>>> {
-        let mut grid = Vec::new();
-        for Entry { key, of, line } in self.entries("grid") {
-            match of {
-                Value::Array(values) if !values.is_empty() => grid.push(Entry { key, of: values, line }),
-                other => {
-                    self.fault(line, format!("grid.{key} is {other}: it must be a list of values, one at least"));
-                }
-            }
-        }
-        grid
+        let limit = "a list of values, one at least";
+        self.lists("grid", limit, |value| value.as_array().filter(|all| !all.is_empty()).cloned())
     }
 
     fn random(&mut self) -> Vec<Entry<[f64; 2]>> {
-        let mut random = Vec::new();
-        for Entry { key, of, line } in self.entries("random") {
-            match pair(&of).filter(|[low, high]| low <= high) {
-                Some(limits) => random.push(Entry { key, of: limits, line }),
-                None => {
-                    let limit = "a list of two numbers, the lower one first";
-                    self.fault(line, format!("random.{key} is {of}: it must be {limit}"));
-                }
+        let limit = "a list of two numbers, the lower one first";
+        self.lists("random", limit, |value| pair(value).filter(|[low, high]| low <= high))
+    }
+
+    /// What the values of a table's keys are read as, those that are wrong aside.
+    fn lists<T>(&mut self, table: &'static str, limit: &str, of: impl Fn(&Value) -> Option<T>) -> Vec<Entry<T>> {
+        let mut lists = Vec::new();
+        for Entry { key, of: value, line } in self.entries(table) {
+            match of(&value) {
+                Some(of) => lists.push(Entry { key, of, line }),
+                None => self.fault(line, format!("{table}.{key} is {value}: it must be {limit}")),
             }
         }
-        random
+        lists
     }
 
     /// The keys of a scene in one of the tables, in their order in the file.

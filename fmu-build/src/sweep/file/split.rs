@@ -111,12 +111,10 @@ impl Reading<'_, '_> {
             return None;
         };
         let limit = "three numbers from 0 to 1, the shares of train, validation and test";
-        let shares: Option<Vec<f64>> = value.as_array().and_then(|all| all.iter().map(number).collect());
-        let shares: Option<[f64; 3]> = shares.and_then(|shares| shares.try_into().ok());
-        let Some(shares) = shares.filter(|shares| shares.iter().all(|share| (0.0..=1.0).contains(share))) else {
-            self.wrong("split", value, limit);
-            return None;
-        };
+        let shares: [f64; 3] = self.read("split", limit, |value| {
+            let shares: Vec<f64> = value.as_array()?.iter().map(number).collect::<Option<_>>()?;
+            shares.try_into().ok().filter(|shares: &[f64; 3]| shares.iter().all(|share| (0.0..=1.0).contains(share)))
+        })?;
         // Thirds and tenths add to 1 within their rounding in a file.
         let sum: f64 = shares.iter().sum();
         if (sum - 1.0).abs() > 1e-6 {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use anyhow::Result;
 use brinell::geometry::kinematics::Frequencies;
-use brinell::scene::{Defect, DefectOn, DefectShape, Motion, Scene};
+use brinell::scene::{Defect, DefectShape, Motion, Scene};
 use brinell::simulation::setup::with_operating_angle;
 
 use super::Cell;
@@ -24,7 +24,7 @@ pub(in crate::sweep) fn put(
 ) -> Result<()> {
     let (kind, shape) = match &scene.defects[..] {
         [] => (Fault::Healthy.word(), None),
-        [defect] => (kind_of(defect.on).word(), Some(defect)),
+        [defect] => (Fault::of(defect.on).word(), Some(defect)),
         _ => ("several", None),
     };
     put("label_kind", Cell::Text(kind.to_owned()))?;
@@ -48,9 +48,10 @@ pub(in crate::sweep) fn put(
 
 /// The same in the words of public collections of recordings.
 fn in_the_fields_words(put: &mut Put<'_>, scene: &Scene, speed: f64, rate: f64) -> Result<()> {
-    let faults: Vec<&str> = scene.defects.iter().map(|defect| field_word(defect.on)).collect();
+    let faults: Vec<&str> = scene.defects.iter().map(|defect| Fault::of(defect.on).field_word()).collect();
     let healthy = faults.is_empty();
-    put("fault_type", Cell::Text(if healthy { "normal".to_owned() } else { faults.join("+") }))?;
+    let kind = if healthy { Fault::Healthy.field_word().to_owned() } else { faults.join("+") };
+    put("fault_type", Cell::Text(kind))?;
     put("fault_location", Cell::Text(if healthy { "none" } else { "test_bearing" }.to_owned()))?;
     let lengths: Vec<f64> = scene.defects.iter().filter_map(length).collect();
     // A profile's length is in its file.
@@ -70,27 +71,11 @@ fn in_the_fields_words(put: &mut Put<'_>, scene: &Scene, speed: f64, rate: f64) 
     Ok(())
 }
 
-fn field_word(on: DefectOn) -> &'static str {
-    match on {
-        DefectOn::Outer => "outer",
-        DefectOn::Inner => "inner",
-        DefectOn::Element { .. } => "rolling_element",
-    }
-}
-
 /// Length of a spall (m).
 fn length(defect: &Defect) -> Option<f64> {
     match defect.shape {
         DefectShape::Spall { length, .. } => Some(length),
         DefectShape::Profile(_) => None,
-    }
-}
-
-fn kind_of(on: DefectOn) -> Fault {
-    match on {
-        DefectOn::Outer => Fault::Outer,
-        DefectOn::Inner => Fault::Inner,
-        DefectOn::Element { .. } => Fault::Element,
     }
 }
 

@@ -7,17 +7,15 @@ pub(super) mod columns;
 pub(super) mod labels;
 pub(super) mod statistics;
 
-use crate::run::table::{GROUP, PACKING};
-use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
+use crate::run::table::{GROUP, parquet_writer};
+use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
-use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::Type;
+use parquet::file::writer::SerializedRowGroupWriter;
+use parquet::schema::types::{PrimitiveTypeBuilder, Type};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use brinell::numerics::checksum::checksum;
@@ -170,26 +168,19 @@ impl Journal {
 /// Writes the rows as Apache Parquet, whole or not at all: a row for each run, in their order; what a run does not have
 /// is null. The file's metadata has each column's unit as `unit:<name>`, and these pairs of `origin`.
 pub(super) fn write_table(path: &Path, columns: &[Column], origin: &[(&str, &str)], rows: &[Row]) -> Result<()> {
-    let field = |column: &Column| {
+    fn field(column: &Column) -> PrimitiveTypeBuilder<'_> {
         let (physical, logical) = match column.kind {
             Kind::Number => (Physical::DOUBLE, None),
             Kind::Whole => (Physical::INT64, None),
             Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
         let built = Type::primitive_type_builder(&column.name, physical).with_repetition(Repetition::OPTIONAL);
-        Ok(Arc::new(built.with_logical_type(logical).build()?))
-    };
-    let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
-    let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
-    let pair = |key: String, value: &str| KeyValue::new(key, Some(value.to_owned()));
-    let units = columns.iter().filter_map(|column| Some(pair(format!("unit:{}", column.name), column.unit()?)));
-    let metadata = units.chain(origin.iter().map(|(key, value)| pair((*key).to_owned(), value))).collect();
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::GZIP(GzipLevel::try_new(PACKING)?))
-        .set_key_value_metadata(Some(metadata))
-        .build();
+        built.with_logical_type(logical)
+    }
+    let units = columns.iter().filter_map(|column| Some((column.name.as_str(), column.unit()?)));
     whole_file::write_with(path, |out| {
-        let mut writer = SerializedFileWriter::new(out, schema, Arc::new(properties))?;
+        let properties = WriterProperties::builder();
+        let mut writer = parquet_writer(out, properties, "sweep", columns.iter().map(field), units, origin)?;
         for rows in rows.chunks(GROUP) {
             let mut group = writer.next_row_group()?;
             for (position, column) in columns.iter().enumerate() {
