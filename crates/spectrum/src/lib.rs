@@ -86,8 +86,8 @@ impl Spectrum {
     }
 }
 
-/// The first bin and, at even length of the signal, the last stand for themselves alone and must be real, which rounding
-/// does not leave them: the inverse transform refuses others.
+/// The first bin and, at even length of the signal, the last stand for themselves alone and must be real, which
+/// rounding does not leave them: the inverse transform refuses others.
 pub(crate) fn keep_ends_real(bins: &mut [Complex<f64>], len: usize) {
     bins[0].im = 0.0;
     if let Some(last) = bins.last_mut().filter(|_| len.is_multiple_of(2)) {

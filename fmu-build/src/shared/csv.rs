@@ -52,8 +52,8 @@ pub fn table(path: &Path, names: &[(impl Display, &str)], columns: &[impl AsRef<
 /// Two numbers, and the line that they stand on.
 pub type Pair = (usize, [f64; 2]);
 
-/// Reads a table of two columns, the first of which ascends, below one of these headings; gives which it is. Empty lines
-/// and those that begin with `#` are left out.
+/// Reads a table of two columns, the first of which ascends, below one of these headings; gives which it is. Empty
+/// lines and those that begin with `#` are left out.
 ///
 /// # Errors
 /// What is no such table, which `what` names, with the line, the value and what it must be.

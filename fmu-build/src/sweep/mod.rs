@@ -63,6 +63,18 @@ pub struct Asked {
     scene_of: Option<u64>,
 }
 
+impl Asked {
+    fn folder(&self, project: &Project) -> PathBuf {
+        let of_file = || project.results("sweep").join(self.file.file_stem().unwrap_or_else(|| "sweep".as_ref()));
+        self.output.clone().unwrap_or_else(of_file)
+    }
+
+    fn jobs(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.jobs.map_or_else(cores, |jobs| jobs as usize)
+    }
+}
+
 /// A sweep that was read and can be run.
 struct Planned {
     sweep: Sweep,
@@ -78,19 +90,19 @@ struct Planned {
 /// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A
 /// part goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
 pub(crate) fn command(project: &Project, options: &Asked) -> Result<()> {
-    let file = &options.file;
-    if let Some(run) = options.scene_of {
-        return print_scene(file, run);
+    match options.scene_of {
+        Some(run) => print_scene(&options.file, run),
+        None => run_all(project, options),
     }
-    let of_file = || project.results("sweep").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref()));
-    let folder = &options.output.clone().unwrap_or_else(of_file);
-    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-    let jobs = options.jobs.map_or_else(cores, |jobs| jobs as usize);
+}
+
+fn run_all(project: &Project, options: &Asked) -> Result<()> {
+    let (file, jobs) = (&options.file, options.jobs());
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;
     let columns = rows::columns::columns(sweep, &|key| planned.is_whole(key));
     let record = Record::of(sweep, base, file, &planned.text, options.signals, &columns)?;
-    let folder = Folder::open(folder, options.part, options.signals, &record)?;
+    let folder = Folder::open(&options.folder(project), options.part, options.signals, &record)?;
     let (mut journal, mut rows) = Journal::open(&folder.path, &folder.running, &columns)?;
     if let Some(beyond) = rows.iter().filter_map(Row::run).find(|run| *run >= sweep.runs) {
         bail!("{} holds run {beyond}: runs must be at least {}", folder.path.display(), beyond + 1);

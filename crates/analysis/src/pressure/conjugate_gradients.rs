@@ -156,8 +156,8 @@ impl Level {
         left.zip(&self.pressure).map(|(left, &p)| if p >= self.highest { left } else { 0.0 }).collect()
     }
 
-    /// Pressure from the coarser grid of so many columns, bilinear; or none, with the set of cells whose interference exceeds half the
-    /// largest.
+    /// Pressure from the coarser grid of so many columns, bilinear; or none, with the set of cells whose interference
+    /// exceeds half the largest.
     fn start(&mut self, approach: f64, coarser: Option<(usize, Vec<f64>)>) {
         for (g, h) in self.interference.iter_mut().zip(&self.gap) {
             *g = approach - h;

@@ -33,8 +33,8 @@ pub struct GridContact {
 }
 
 /// The contact under a force (N) of bodies that `solve` presses to an approach (m), to a relative `limit` of the force:
-/// secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known to be too small and too
-/// large.
+/// secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known to be too small and
+/// too large.
 ///
 /// # Errors
 /// Those of `solve`, and a force that is not met.
