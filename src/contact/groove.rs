@@ -116,7 +116,15 @@ pub trait RingAxis<T: Number>: Copy {
     /// a × e
     fn around(&self, e: Spatial<T>) -> Spatial<T>;
     /// Velocity (m/s) against the ring of what is at q and moves at `rate` (m/s).
-    fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T>;
+    #[inline(always)]
+    fn velocity(&self, _q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
+        rate
+    }
+    /// The same by axes of which the first two are turned by `turned`.
+    #[inline(always)]
+    fn seen(&self, _turned: impl Fn(T, T) -> [T; 2]) -> Self {
+        *self
+    }
 }
 
 /// Axis of a ring that does not tilt.
@@ -137,14 +145,6 @@ impl<T: Number> Axis<T> {
             direction: [y * per_length, -x * per_length, per_length],
             turning: [rate_x / square, rate_y / square, (x * rate_y - y * rate_x) / square],
         }
-    }
-
-    /// The same by axes of which the first two are turned by `turned`.
-    #[inline(always)]
-    pub fn seen(&self, turned: impl Fn(T, T) -> [T; 2]) -> Self {
-        let ([a_x, a_y, a_z], [t_x, t_y, t_z]) = (self.direction, self.turning);
-        let ([a_x, a_y], [t_x, t_y]) = (turned(a_x, a_y), turned(t_x, t_y));
-        Self { direction: [a_x, a_y, a_z], turning: [t_x, t_y, t_z] }
     }
 }
 
@@ -171,6 +171,13 @@ impl<T: Number> RingAxis<T> for Axis<T> {
     fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
         minus(rate, cross(self.turning, q))
     }
+
+    #[inline(always)]
+    fn seen(&self, turned: impl Fn(T, T) -> [T; 2]) -> Self {
+        let ([a_x, a_y, a_z], [t_x, t_y, t_z]) = (self.direction, self.turning);
+        let ([a_x, a_y], [t_x, t_y]) = (turned(a_x, a_y), turned(t_x, t_y));
+        Self { direction: [a_x, a_y, a_z], turning: [t_x, t_y, t_z] }
+    }
 }
 
 impl<T: Number> RingAxis<T> for Upright {
@@ -190,11 +197,6 @@ impl<T: Number> RingAxis<T> for Upright {
     fn around(&self, [e_x, e_y, e_z]: Spatial<T>) -> Spatial<T> {
         [-e_y, e_x, e_z]
     }
-
-    #[inline(always)]
-    fn velocity(&self, _: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
-        rate
-    }
 }
 
 impl<T: Number> RingAxis<T> for Concentric {
@@ -211,11 +213,6 @@ impl<T: Number> RingAxis<T> for Concentric {
     #[inline(always)]
     fn around(&self, [one, none, _]: Spatial<T>) -> Spatial<T> {
         [none, one, none]
-    }
-
-    #[inline(always)]
-    fn velocity(&self, _: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
-        rate
     }
 }
 

@@ -9,7 +9,7 @@
 //! ```
 //! F is the force of both contacts on the ball. On a ring acts −F with the moment −q × F about its centre.
 
-use crate::contact::groove::{Axis, Concentric, Groove, GrooveContact, RingAxis, Spatial, Upright, cross, plus, times};
+use crate::contact::groove::{Axis, Groove, GrooveContact, RingAxis, Spatial, cross, plus, times};
 use crate::dynamics::parameters::{COORDINATES, RingInSpace};
 use crate::numerics::number::Number;
 
@@ -81,32 +81,6 @@ pub(in crate::dynamics) fn axis_of<T: Number>(ring: &RingInSpace<T>) -> Axis<T> 
     Axis::tilted([x[3], x[4]], [v[3], v[4]])
 }
 
-/// A ring's axis as it is given to a ball in direction e_r.
-pub(in crate::dynamics) trait SeenAxis<T: Number>: RingAxis<T> {
-    fn along(&self, e_r: [T; 2]) -> Self;
-}
-
-impl<T: Number> SeenAxis<T> for Axis<T> {
-    #[inline(always)]
-    fn along(&self, e_r: [T; 2]) -> Self {
-        self.seen(|x, y| seen(e_r, x, y))
-    }
-}
-
-impl<T: Number> SeenAxis<T> for Upright {
-    #[inline(always)]
-    fn along(&self, _: [T; 2]) -> Self {
-        *self
-    }
-}
-
-impl<T: Number> SeenAxis<T> for Concentric {
-    #[inline(always)]
-    fn along(&self, _: [T; 2]) -> Self {
-        *self
-    }
-}
-
 impl<T: Number> Ball<T> {
     /// u' and v' (m/s) of a ball in direction `e_r` with the velocities w and w_z as the outer ring moves.
     #[inline(always)]
@@ -115,7 +89,7 @@ impl<T: Number> Ball<T> {
     }
 }
 
-impl<T: Number, I: SeenAxis<T>, O: SeenAxis<T>> Ball<T, I, O> {
+impl<T: Number, I: RingAxis<T>, O: RingAxis<T>> Ball<T, I, O> {
     /// At u and v, which change at these rates, in direction `e_r`, going round with `omega` (rad/s), between these
     /// rings, the inner one first; `radius` is R_o − r (m).
     #[inline(always)]
@@ -134,6 +108,7 @@ impl<T: Number, I: SeenAxis<T>, O: SeenAxis<T>> Ball<T, I, O> {
         let rate = [rates[0], rho * omega, rates[1]];
         let offset = seen(e_r, between(0), between(1));
         let drifting = seen(e_r, drift(0), drift(1));
+        let turned = |x, y| seen(e_r, x, y);
         let q_inner = [rho + offset[0], offset[1], v + between(2)];
         let rate_inner = [rate[0] + drifting[0], rate[1] + drifting[1], rate[2] + drift(2)];
         Self {
@@ -143,8 +118,8 @@ impl<T: Number, I: SeenAxis<T>, O: SeenAxis<T>> Ball<T, I, O> {
             rates,
             around: seen(e_r, outer.velocity[0], outer.velocity[1])[1],
             seen: (
-                Seen { q: q_inner, rate: rate_inner, axis: axes.0.along(e_r) },
-                Seen { q, rate, axis: axes.1.along(e_r) },
+                Seen { q: q_inner, rate: rate_inner, axis: axes.0.seen(turned) },
+                Seen { q, rate, axis: axes.1.seen(turned) },
             ),
         }
     }

@@ -1,7 +1,7 @@
 //! The contacts of several balls at a time on smooth grooves. A ball near a defect has stiffness 0 here.
 
-use super::ball::{Ball, OnBall, Place, SeenAxis, axis_of};
-use crate::contact::groove::{Axis, Concentric, Upright};
+use super::ball::{Ball, OnBall, Place, axis_of};
+use crate::contact::groove::{Axis, Concentric, RingAxis, Upright};
 use crate::contact::law::{DampedLaw, Point};
 use crate::dynamics::contacts::{Record, Sums, radial};
 use crate::dynamics::parameters::{COORDINATES, ElementBlock, Model, RINGS, RingInSpace, Space, Stage};
@@ -44,7 +44,7 @@ impl Model {
 
     /// The same between rings of these axes.
     #[inline(always)]
-    fn balls_between<S: Wide, const RECORD: bool, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>>(
+    fn balls_between<S: Wide, const RECORD: bool, I: RingAxis<Lanes<S>>, O: RingAxis<Lanes<S>>>(
         &self,
         simd: S,
         space: &Space,
@@ -99,7 +99,7 @@ fn axis_everywhere<S: Wide>(simd: S, axis: &Axis<f64>) -> Axis<Lanes<S>> {
     Axis { direction: [number(a_x), number(a_y), number(a_z)], turning: [number(t_x), number(t_y), number(t_z)] }
 }
 
-impl<S: Wide, I: SeenAxis<Lanes<S>>, O: SeenAxis<Lanes<S>>> Smooth<'_, S, I, O> {
+impl<S: Wide, I: RingAxis<Lanes<S>>, O: RingAxis<Lanes<S>>> Smooth<'_, S, I, O> {
     /// One contact of some balls.
     #[inline(always)]
     fn contact(&self, place: Place<Lanes<S>>, law: &DampedLaw<Lanes<S>>, stiffness: Lanes<S>) -> Contact<S> {
