@@ -38,7 +38,7 @@ impl WindowsPython {
         packages.extend(further.iter().map(|path| path.display().to_string()));
         let list = folder.join("packages.txt");
         fs::write(&list, packages.join("\n")).unwrap();
-        common::run_script("windows_python.py", [&folder, &list]);
+        common::run_script("windows/windows_python.py", [&folder, &list]);
         let built =
             machines::compiled(Platform::named("win64").unwrap().targets[0], &["--example", "python"]).join("examples");
         fs::copy(built.join("python.exe"), folder.join("python.exe")).unwrap();
@@ -70,10 +70,10 @@ mod all_platforms {
         let write =
             |name: &String| fmu_build::package::write(&common::model(name), &library, Version::Fmi2, &folder).unwrap();
         let fmus: Vec<_> = scenes.iter().map(write).collect();
-        let here = common::run_script("bits.py", words(&folder.join("here"), &fmus, Path::to_path_buf));
+        let here = common::run_script("windows/bits.py", words(&folder.join("here"), &fmus, Path::to_path_buf));
 
         let python = WindowsPython::new("windows-python", &[]);
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/bits.py");
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/windows/bits.py");
         let mut command = machines::wine(&python.program());
         command.env("PYTHONUTF8", "1").arg(machines::on_windows(&script));
         command.args(words(&folder.join("there"), &fmus, |path| machines::on_windows(path).into()));

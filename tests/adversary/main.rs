@@ -21,10 +21,10 @@ mod subject;
 mod support;
 #[path = "../fuzz/src/targets/mod.rs"]
 mod targets;
-#[path = "../fmi3/host.rs"]
+#[path = "../fmi/fmi3/host.rs"]
 #[allow(dead_code)]
 mod three;
-#[path = "../fmi2/host.rs"]
+#[path = "../fmi/fmi2/host.rs"]
 #[allow(dead_code)]
 mod two;
 mod units;

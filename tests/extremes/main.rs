@@ -141,7 +141,7 @@ fn write_the_table_of_stability() {
     let text = text.replace("<!-- rows of rollers -->\n", &rows(ROLLERS));
     let text = text.replace("<!-- rows in space -->\n", &oracle::in_space::rows());
     let text = predictability::tables().into_iter().fold(text, |text, (mark, table)| text.replace(mark, &table));
-    let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes.md"));
+    let text = text.replace("<!-- random scenes -->\n", include_str!("../adversary/scenes/scenes.md"));
     let text = text.replace("<!-- misuse -->\n", include_str!("../adversary/misuse.md"));
     let path = brinell_tests::root().join("docs/evidence/stability.md");
     std::fs::write(path, text).unwrap();

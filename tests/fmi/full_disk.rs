@@ -8,7 +8,7 @@
 // What helpers unwrap is the test's own set-up.
 #![allow(clippy::unwrap_used)]
 
-#[path = "../fmi2/host.rs"]
+#[path = "fmi2/host.rs"]
 #[allow(dead_code)]
 mod two;
 

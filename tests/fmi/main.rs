@@ -9,11 +9,9 @@ mod allocations;
 mod both;
 #[path = "../support/counting.rs"]
 mod counting;
-#[path = "../fmi2/mod.rs"]
 mod fmi2;
-#[path = "../fmi3/mod.rs"]
 mod fmi3;
-#[path = "../fmi3/host.rs"]
+#[path = "fmi3/host.rs"]
 mod three;
-#[path = "../fmi2/host.rs"]
+#[path = "fmi2/host.rs"]
 mod two;

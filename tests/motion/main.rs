@@ -4,8 +4,6 @@
 #[path = "../support/counting.rs"]
 mod counting;
 mod defects;
-#[path = "../element_inertia/mod.rs"]
-mod element_inertia;
 mod equilibrium;
 mod exactness;
 mod exchange;

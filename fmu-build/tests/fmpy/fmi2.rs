@@ -17,24 +17,24 @@ fn validate_fmu_finds_nothing() {
 
 #[test]
 fn simulate_fmu_runs_every_shipped_scene() {
-    run_script("simulate.py", common::fmus(Version::Fmi2));
+    run_script("steps/simulate.py", common::fmus(Version::Fmi2));
 }
 
 #[test]
 fn an_fmu_in_a_folder_with_spaces_and_umlauts_runs() {
     let fmu = common::folder("Wälzlager & Käfig 50 % + mehr").join("6205-epps.fmu");
     fs::copy(fmu_of("6205-epps"), &fmu).unwrap();
-    run_script("odd_folder.py", [fmu]);
+    run_script("steps/odd_folder.py", [fmu]);
 }
 
 #[test]
 fn a_load_that_changes_each_step_acts_in_each_step() {
-    run_script("changing_load.py", [fmu_of("er16k-tb1")]);
+    run_script("steps/changing_load.py", [fmu_of("er16k-tb1")]);
 }
 
 #[test]
 fn a_shaft_moved_by_the_host_feels_what_a_shaft_moving_itself_feels() {
-    run_script("hosted_shaft.py", ["er16k-tb1", "er16k-tb1-hosted-shaft"].map(fmu_of));
+    run_script("steps/hosted_shaft.py", ["er16k-tb1", "er16k-tb1-hosted-shaft"].map(fmu_of));
 }
 
 #[test]
@@ -45,22 +45,22 @@ fn a_host_that_steps_by_milliseconds_records_at_51200_hz() {
     fs::write(&scene, text).unwrap();
     let fmu =
         fmu_build::package::write(&Model::read(&scene).unwrap(), common::library(), Version::Fmi2, &folder).unwrap();
-    run_script("recorder.py", [fmu]);
+    run_script("steps/recorder.py", [fmu]);
 }
 
 #[test]
 fn a_light_shaft_of_the_host_is_stepped_again_until_both_agree() {
-    println!("{}", run_script("implicit_coupling.py", ["er16k-tb1", "er16k-tb1-hosted-shaft"].map(fmu_of)));
+    println!("{}", run_script("steps/implicit_coupling.py", ["er16k-tb1", "er16k-tb1-hosted-shaft"].map(fmu_of)));
 }
 
 #[test]
 fn directional_derivatives_of_every_shipped_fmu_are_central_differences() {
-    run_script("directional.py", common::fmus(Version::Fmi2));
+    run_script("interface/directional.py", common::fmus(Version::Fmi2));
 }
 
 #[test]
 fn two_instances_of_two_scenes_do_not_disturb_each_other() {
-    run_script("two_instances.py", ["6205-epps", "er16k-tb2"].map(fmu_of));
+    run_script("steps/two_instances.py", ["6205-epps", "er16k-tb2"].map(fmu_of));
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn an_fmu_and_a_run_without_a_host_give_equal_bits() {
         assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), 2002, "a header and 2001 points");
         [fmu_of(name), csv]
     });
-    run_script("equal_bits.py", [PathBuf::from(step)].into_iter().chain(pairs.concat()));
+    run_script("steps/equal_bits.py", [PathBuf::from(step)].into_iter().chain(pairs.concat()));
 }
 
 #[test]

@@ -19,19 +19,19 @@ fn validate_fmu_finds_nothing_in_fmi_3() {
 
 #[test]
 fn simulate_fmu_runs_a_scene_of_each_kind_of_contact_under_fmi_3() {
-    run_script("simulate.py", ["6205-healthy", "6205-epps", "nu205-healthy", "er16k-tb1-oil"].map(fmu_of));
+    run_script("steps/simulate.py", ["6205-healthy", "6205-epps", "nu205-healthy", "er16k-tb1-oil"].map(fmu_of));
 }
 
 #[test]
 #[ignore = "half a minute; all scenes give the bits of FMI 2.0, under which all are simulated"]
 fn simulate_fmu_runs_every_shipped_scene_under_fmi_3() {
-    run_script("simulate.py", common::fmus(Version::Fmi3));
+    run_script("steps/simulate.py", common::fmus(Version::Fmi3));
 }
 
 #[test]
 fn every_shipped_scene_gives_the_bits_of_fmi_2_under_fmi_3() {
     let pairs = common::names().into_iter().flat_map(|name| [common::fmu_of(&name), fmu_of(&name)]);
-    println!("{}", run_script("equal_bits3.py", [PathBuf::from("300")].into_iter().chain(pairs)));
+    println!("{}", run_script("interface/equal_bits3.py", [PathBuf::from("300")].into_iter().chain(pairs)));
 }
 
 #[test]
@@ -57,5 +57,5 @@ fn the_check_command_passes_an_fmu_of_fmi_3() {
 
 #[test]
 fn states_derivatives_updates_and_terminals_of_every_shipped_scene_keep_to_fmi_3() {
-    println!("{}", run_script("fmi3.py", common::fmus(Version::Fmi3)));
+    println!("{}", run_script("interface/fmi3.py", common::fmus(Version::Fmi3)));
 }

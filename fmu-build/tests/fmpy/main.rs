@@ -5,4 +5,4 @@
 mod common;
 mod fmi2;
 mod fmi3;
-mod kinds;
+mod fmi_kinds;

@@ -21,7 +21,7 @@ fn the_cross_check_finds_them(names: &[&str], folder: &str) {
     let said = build(names, &folder);
     assert!(said.lines().last().unwrap().ends_with(".fmu"), "the FMU comes last: {said}");
     let arguments = std::iter::once(OsString::from(&folder)).chain(names.iter().map(OsString::from));
-    println!("{}", common::run_script("reference.py", arguments));
+    println!("{}", common::run_script("reference/reference.py", arguments));
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn an_fmu_holds_its_reference_results_with_their_manifest_and_experiment() {
         build(&["er16k-tb1", "6205-hosted", "--fmi", version], &folder);
         [folder.join("er16k-tb1.fmu"), folder.join("6205-hosted.fmu")]
     });
-    println!("{}", common::run_script("reference_inside.py", fmus.concat()));
+    println!("{}", common::run_script("reference/reference_inside.py", fmus.concat()));
 }
 
 #[test]

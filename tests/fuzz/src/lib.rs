@@ -7,7 +7,7 @@
 #[path = "../../adversary/misuse/mod.rs"]
 mod misuse;
 mod targets;
-#[path = "../../fmi2/host.rs"]
+#[path = "../../fmi/fmi2/host.rs"]
 mod two;
 
 /// Makes of bytes what the target of this name makes of them.

@@ -1,6 +1,7 @@
-//! Bearings in balance: where runs start from, stiffness, modes.
+//! Bearings in balance: where runs start from, elements without inertia, stiffness, modes.
 
 mod clearance;
+mod element_inertia;
 mod modes;
 mod starts;
 mod stiffness;

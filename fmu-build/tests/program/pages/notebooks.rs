@@ -93,7 +93,7 @@ fn notebooks_hold_what_came_out_of_them_and_nothing_of_a_machine() {
 fn names_and_keywords_that_notebooks_use_are_those_of_the_module() {
     let notebooks = NOTEBOOKS.map(path);
     let package = module().join("brinell");
-    let said = common::run_script("notebook_names.py", [&package].into_iter().chain(&notebooks));
+    let said = common::run_script("notebooks/notebook_names.py", [&package].into_iter().chain(&notebooks));
     assert!(said.trim().parse::<usize>().unwrap() >= 8, "{said} calls");
 }
 
@@ -107,7 +107,7 @@ fn write_the_notebooks() {
     let inline = "module://matplotlib_inline.backend_inline";
     let python = common::that_builds(python).with_variable("MPLBACKEND", inline).with_variable("PYTHONPATH", module());
     let one = std::env::var("BRINELL_PAGE").ok();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/notebook_execute.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/notebooks/notebook_execute.py");
     let chosen = NOTEBOOKS.into_iter().filter(|name| one.as_ref().is_none_or(|one| one == name)).map(path);
     let words = std::iter::once(common::folder("notebooks")).chain(chosen);
     python.run_file(&script, words).unwrap_or_else(|error| panic!("{error:#}"));

@@ -92,9 +92,9 @@ fn write_the_section_of_random_scenes() {
     let entries = judged_so_far();
     assert!(!entries.is_empty(), "{LINES} holds no scene: run the test above first");
     let root = brinell_tests::root();
-    let (section, page) = (root.join("tests/adversary/scenes.md"), root.join("docs/evidence/stability.md"));
-    let head = include_str!("scenes/head.md");
-    let new = format!("{head}\n{}\n{}", Tally::new(&entries).markdown(), include_str!("scenes/mended.md"));
+    let (section, page) = (root.join("tests/adversary/scenes/scenes.md"), root.join("docs/evidence/stability.md"));
+    let head = include_str!("head.md");
+    let new = format!("{head}\n{}\n{}", Tally::new(&entries).markdown(), include_str!("mended.md"));
     fs::write(&section, &new).unwrap();
     let text = fs::read_to_string(&page).unwrap();
     let title = head.lines().next().unwrap();
@@ -106,7 +106,7 @@ fn write_the_section_of_random_scenes() {
 #[test]
 fn the_page_holds_the_section() {
     let page = std::fs::read_to_string(brinell_tests::root().join("docs/evidence/stability.md")).unwrap();
-    assert!(page.contains(include_str!("scenes.md")), "the page does not hold tests/adversary/scenes.md");
+    assert!(page.contains(include_str!("scenes.md")), "the page does not hold tests/adversary/scenes/scenes.md");
 }
 
 /// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force

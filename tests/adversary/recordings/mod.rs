@@ -5,7 +5,7 @@
 mod clocks;
 mod files;
 mod foreign;
-#[path = "../support/machine.rs"]
+#[path = "../../support/machine.rs"]
 mod machine;
 mod signals;
 

@@ -4,7 +4,7 @@
 //! arguments that Brinell passes. On the platforms that the tests run on (System V x86-64, AArch64 Linux, Windows
 //! x64) variable arguments arrive where fixed ones do, so this is harmless; on Apple's AArch64 it is not.
 
-#[path = "../fmi/any_host.rs"]
+#[path = "../any_host.rs"]
 pub(crate) mod any_host;
 
 pub(crate) use any_host::Line;

@@ -9,8 +9,8 @@
 //! a slower solver (more steps, more rejected ones) is a regression too.
 #![allow(clippy::unwrap_used)]
 
-#[path = "golden/runs.rs"]
 mod runs;
+#[path = "../support/mod.rs"]
 mod support;
 
 use std::collections::BTreeMap;

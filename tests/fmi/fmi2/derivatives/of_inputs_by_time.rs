@@ -1,6 +1,6 @@
 //! Derivatives of inputs by time: each order is used or refused.
 
-use super::derivatives::inputs;
+use super::by_inputs::inputs;
 use crate::two::{Host, bits};
 use brinell::simulation::interface::table::Variable;
 use brinell_fmi::fmi2::Status;

@@ -1,6 +1,6 @@
 //! Derivatives by parameters, which are knowns in initialization mode.
 
-use super::derivatives::{SCENES, outputs, references};
+use super::by_inputs::{SCENES, outputs, references};
 use crate::two::Host;
 use crate::two::any_host::is_real;
 use brinell::simulation::interface::table::{Causality, Kind, Variable};

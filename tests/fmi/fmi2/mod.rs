@@ -2,16 +2,11 @@
 
 mod derivatives;
 mod hostile;
-mod input_derivatives;
-mod instantiate;
+mod instances;
 mod logging;
 mod model_exchange;
 mod modes;
-mod output_derivatives;
-mod panics;
-mod parameter_derivatives;
 mod processes;
-mod recordings;
 mod saved_states;
 mod steps;
 mod variables;

@@ -3,13 +3,9 @@
 //! as short as CONTRIBUTING.md asks.
 #![allow(clippy::unwrap_used)]
 
-#[path = "layers/cycles.rs"]
 mod cycles;
-#[path = "layers/lengths.rs"]
 mod lengths;
-#[path = "layers/methods.rs"]
 mod methods;
-#[path = "layers/reader.rs"]
 mod reader;
 
 use std::fs;

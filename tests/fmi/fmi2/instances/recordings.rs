@@ -150,7 +150,7 @@ fn child() {
 
 fn other_process(folder: &Path) -> Child {
     let mut child = Command::new(env::current_exe().unwrap())
-        .args(["fmi2::recordings::child", "--exact", "--ignored", "--nocapture"])
+        .args(["fmi2::instances::recordings::child", "--exact", "--ignored", "--nocapture"])
         .env(FOLDER, folder)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

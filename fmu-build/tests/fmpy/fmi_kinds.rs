@@ -20,7 +20,7 @@ fn cvode_of_fmpy_integrates_what_the_fmu_integrates_itself() {
         let interface = Interface { version, kind: Kind::Both, ..Interface::default() };
         packed(&["6205-healthy", "er16k-tb1"], interface, folder)
     });
-    println!("{}", common::run_script("model_exchange.py", fmus.concat()));
+    println!("{}", common::run_script("steps/model_exchange.py", fmus.concat()));
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn fmpy_finds_nothing_wrong_with_other_kinds_names_and_scalars() {
 #[test]
 fn fmpy_steps_an_fmu_of_fmi_3_without_arrays() {
     let interface = Interface { version: Version::Fmi3, scalars: true, ..Interface::default() };
-    common::run_script("simulate.py", packed(&["er16k-tb1"], interface, "scalars"));
+    common::run_script("steps/simulate.py", packed(&["er16k-tb1"], interface, "scalars"));
 }
 
 #[test]

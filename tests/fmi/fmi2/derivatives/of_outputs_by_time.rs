@@ -1,6 +1,6 @@
 //! Derivatives of outputs by time are what a host finds by short steps.
 
-use super::derivatives::{SCENES, inputs, outputs, references};
+use super::by_inputs::{SCENES, inputs, outputs, references};
 use crate::two::Host;
 use brinell::simulation::interface::table::{Kind, Unit};
 use brinell_fmi::fmi2::*;
