@@ -33,9 +33,9 @@ pub struct GridContact {
     pub iterations: usize,
 }
 
-/// The contact under a force (N), which is positive, of bodies that `solve` presses to an approach (m), to a relative `limit` of the force:
-/// secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known to be too small and
-/// too large.
+/// The contact under a force (N), which is positive, of bodies that `solve` presses to an approach (m), to a relative
+/// `limit` of the force: secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known
+/// to be too small and too large.
 ///
 /// # Errors
 /// Those of `solve`, and a force that is not met.
