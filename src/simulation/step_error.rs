@@ -58,10 +58,10 @@ pub enum StepError {
     RingsApart { shaft: [f64; 2], housing: [f64; 2], offset: f64, limit: f64, since: f64 },
     /// The rings are further apart along the axis than their grooves reach.
     #[error(
-        "distance of the rings along z {apart:.3e} m (limit: that of the grooves' centres, {limit:.3e} m) \
+        "distance of the rings along z {distance:.3e} m (limit: that of the grooves' centres, {limit:.3e} m) \
          {since:.6e} s into the communication step; check prescribed positions, axial loads and axial stiffness"
     )]
-    RingsApartAxially { apart: f64, limit: f64, since: f64 },
+    AxialDistance { distance: f64, limit: f64, since: f64 },
     /// A ball that has climbed out of its groove.
     #[error(
         "contact angle of element {element} {angle_deg:.2} degrees (limit {limit_deg} degrees) {since:.6e} s into the \

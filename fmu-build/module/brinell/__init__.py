@@ -178,7 +178,7 @@ def size(
     """
     files = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
     options = _options(
-        scene=scene, bearing=bearing, load=load, speed=speed if isinstance(speed, (int, float)) else _listed(speed or ""),
+        scene=scene, bearing=bearing, load=load, speed=speed if isinstance(speed, (int, float)) else _listed([] if speed is None else speed),
         rate=rate, tacho=tacho, pulses=pulses if tacho is not None else None, speed_column=speed_column,
         channel=column if channel is None else channel, delimiter=delimiter, decimal=decimal,
     )  # fmt: skip

@@ -33,7 +33,9 @@ def _summary(caption: str, columns: Mapping[str, Signal], units: Mapping[str, st
 
 
 def _chosen(names: str | Iterable[str] | None) -> list[str]:
-    return [names] if isinstance(names, str) else list(names or ())
+    if names is None:
+        return []
+    return [names] if isinstance(names, str) else list(names)
 
 
 def _pandas() -> Any:

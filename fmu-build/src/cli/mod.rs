@@ -52,7 +52,7 @@ pub enum Command {
     /// Simulates a scene without a host and writes its signals, a figure, sound, an HTML page
     Run(Run),
     /// Runs a scene thousands of times over grids and random values, on all cores: one Parquet table
-    Sweep(sweep::Asked),
+    Sweep(sweep::Options),
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary

@@ -1,4 +1,4 @@
-//! Options of each command.
+//! Options of commands, but for those that stand with their command: of `contact`, `size` and `sweep`.
 
 use std::env;
 use std::path::PathBuf;

@@ -106,7 +106,7 @@ impl Case {
             Simulation::with_map(self.scene.clone(), self.profile(), map.as_deref()).with_context(about)?;
         simulation.initialize(0.0).with_context(about)?;
         let mut columns = vec![Vec::new(); names.len()];
-        for sample in simulation.samples(names, 1.0 / rate)?.take(1 + (seconds * rate) as usize) {
+        for sample in simulation.samples(names, 1.0 / rate).with_context(about)?.take(1 + (seconds * rate) as usize) {
             let values = sample.with_context(about)?.values;
             columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         }

@@ -19,7 +19,7 @@ const NAMES: [&str; 5] =
 const EPPS_LENGTH: f64 = 0.8e-3;
 
 /// Around a spall that is drawn (µm).
-pub const AROUND: RangeInclusive<i32> = -700..=700;
+pub(super) const AROUND: RangeInclusive<i32> = -700..=700;
 
 /// Names of columns with their units.
 pub type Names = Vec<(String, &'static str)>;

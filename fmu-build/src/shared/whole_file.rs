@@ -35,9 +35,9 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write_with(path, |out| Ok(out.write_all(bytes.as_ref())?))
 }
 
-/// Writes a file of these bytes unless it is there; whether it did.
+/// Writes a file of these bytes unless it has them already; whether it did. A process that reads the old ones goes on
+/// with them.
 pub fn write_if_new(path: &Path, bytes: impl AsRef<[u8]>) -> Result<bool> {
-    // Another process that reads the old text goes on with it.
     let is_new = !fs::read(path).is_ok_and(|there| there == bytes.as_ref());
     if is_new {
         write(path, bytes)?;

@@ -43,7 +43,7 @@ const TABLE: &str = "runs.parquet";
 
 /// Options of `sweep`.
 #[derive(Debug, Args)]
-pub struct Asked {
+pub struct Options {
     /// File of the sweep (TOML): which scene is run, and what changes from run to run
     file: PathBuf,
     /// Folder for the table; a sweep that was interrupted goes on in it [default: named after the file]
@@ -63,7 +63,7 @@ pub struct Asked {
     scene_of: Option<u64>,
 }
 
-impl Asked {
+impl Options {
     fn folder(&self, project: &Project) -> PathBuf {
         let of_file = || project.results("sweep").join(self.file.file_stem().unwrap_or_else(|| "sweep".as_ref()));
         self.output.clone().unwrap_or_else(of_file)
@@ -89,14 +89,14 @@ struct Planned {
 
 /// The command: `<folder>/runs.parquet` and, if wanted, a file with the signals of each run in `<folder>/signals`. A
 /// part goes into a folder of its own in it; without one, rows and signals of the parts there are taken over.
-pub(crate) fn command(project: &Project, options: &Asked) -> Result<()> {
+pub(crate) fn command(project: &Project, options: &Options) -> Result<()> {
     match options.scene_of {
         Some(run) => print_scene(&options.file, run),
         None => run_all(project, options),
     }
 }
 
-fn run_all(project: &Project, options: &Asked) -> Result<()> {
+fn run_all(project: &Project, options: &Options) -> Result<()> {
     let (file, jobs) = (&options.file, options.jobs());
     let planned = Planned::read(file)?;
     let Planned { sweep, base, .. } = &planned;

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::{env, fs};
 
 use fmu_build::package::{Choice, Library, Model, fmu};
-use fmu_build::shared::{Project, Python, Version};
+use fmu_build::shared::{Project, Python, Version, whole_file};
 
 /// Root of the workspace.
 pub(crate) fn root() -> &'static Path {
@@ -151,7 +151,8 @@ pub(crate) fn fmu(name: &str, version: Version) -> PathBuf {
     let once = Arc::clone(PACKED.lock().unwrap().entry(path.clone()).or_default());
     once.get_or_init(|| {
         fs::create_dir_all(&folder).unwrap();
-        fs::write(&path, fmu::pack(&model(name), library(), version).unwrap()).unwrap();
+        // Tests of another program may read the same file.
+        whole_file::write(&path, fmu::pack(&model(name), library(), version).unwrap()).unwrap();
     });
     path
 }

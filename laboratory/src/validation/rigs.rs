@@ -119,7 +119,7 @@ fn one(number: u64, raceway: Raceway, length: f64) -> Result<Found> {
     let rig = SyntheticRig::draw(&mut random);
     let (count, element, pitch) = BEARINGS[if random.uniform() < 0.5 { 0 } else { random.below(BEARINGS.len()) }];
     let load = rig.load * libm::exp(0.3 * random.normal());
-    let bearing = Bearing::steel_balls(count, 1e-3 * element, 1e-3 * pitch);
+    let bearing = Bearing::steel_balls(count, element / 1e3, pitch / 1e3);
     let scene = Scene::builder(bearing).shaft_load([0.0, -load]).build()?;
     let signal = rig.record(&scene.bearing, raceway, length, &mut random);
     let recording = Recording::new("synthetic", signal, rig.rate, rig.speed)?;

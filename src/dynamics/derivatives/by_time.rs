@@ -1,9 +1,9 @@
 //! Derivative of the right-hand side by time at constant state: what turns goes on, rings move as they are prescribed,
 //! loads and speeds change. A [`Variation`] like any other, of which the equations over dual numbers make the rest.
 
-use super::change::{Changing, Variation};
 use super::fastest::BodyIndices;
 use super::jacobian::{Jacobian, bodies};
+use super::small_change::{Changing, Variation};
 use super::variation::changing_vector;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{

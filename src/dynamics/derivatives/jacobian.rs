@@ -6,9 +6,9 @@
 //! are two.
 
 use super::arrow::ArrowJacobian;
-use super::change::Variation;
 use super::elimination::Elimination;
 use super::fastest::{BodyIndices, Fastest};
+use super::small_change::Variation;
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     BODIES, COORDINATES, Cells, Excitation, FEW_BODIES, FEW_SPATIAL_BODIES, Layout, Model, PLANE_RINGS, RINGS,

@@ -2,16 +2,16 @@
 
 mod arrow;
 mod by_time;
-mod change;
 mod elimination;
 mod fastest;
 pub mod jacobian;
 mod plane_jacobian;
+mod small_change;
 mod spatial_jacobian;
 mod spatial_variation;
 pub mod variation;
 
-pub(crate) use change::Going;
-pub use change::{ForceChange, Variation};
 pub use fastest::{BodyIndices, Fastest};
 pub use jacobian::Jacobian;
+pub(crate) use small_change::Going;
+pub use small_change::{ForceChange, Variation};

@@ -1,7 +1,7 @@
 //! The Jacobian in the plane: an element's state (u, w), by the rings' four coordinates, and their velocities.
 
 use super::arrow::{ArrowJacobian, ElementToFirstOrder};
-use super::change::Changing;
+use super::small_change::Changing;
 use crate::dynamics::contacts::{ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PLANE_RINGS, PathMotion};
 use crate::dynamics::quasi_static::{RingJacobian, add_by_offset, stacked};

@@ -1,7 +1,7 @@
 //! First-order change of forces for a small change of state and inputs, of rings in space: all that a ball meets is a
 //! dual number along the change.
 
-use super::change::{Changing, ForceChange, Going, Variation, changing};
+use super::small_change::{Changing, ForceChange, Going, Variation, changing};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, Frame, FramedKinematics, Frames, Model, RINGS, RingInSpace, Space, Turn,

@@ -8,7 +8,7 @@
 //! equilibrium, and by time along the motion. Derivatives are those of the branch that each contact is in; at the
 //! onset of a contact there are two.
 
-use super::change::{Changing, ForceChange, Going, Variation, changing};
+use super::small_change::{Changing, ForceChange, Going, Variation, changing};
 use crate::dynamics::contacts::{BodyTorque, ContactForces, ElementForces, ElementMotion, Shortcuts};
 use crate::dynamics::parameters::{Cells, Excitation, Frame, FramedKinematics, Frames, Model, PathMotion, Turn};
 use crate::dynamics::quasi_static::{RingJacobian, Rings, stacked};

@@ -257,7 +257,7 @@ pub const fn force_slot(ring: usize, coordinate: usize) -> usize {
 
 impl RingInSpace {
     /// What of it is in the plane.
-    pub(crate) fn in_plane(&self) -> RingState {
+    pub(in crate::dynamics) fn in_plane(&self) -> RingState {
         let [position, velocity] = [self.position, self.velocity].map(|of| Vector::new(of[0], of[1]));
         RingState { position, velocity }
     }

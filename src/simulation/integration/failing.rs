@@ -79,9 +79,9 @@ pub(in crate::simulation) fn check_rings(problem: Problem, tau: f64, progress: &
     let Problem { model, excitation } = problem;
     if let Some(space) = &model.space {
         let [inner, outer] = model.rings_in_space(excitation, tau, &progress.state, None);
-        let (apart, limit) = (outer.position[2] - inner.position[2], space.largest_shift);
-        if !(apart.abs() <= limit) {
-            return Err(StepError::RingsApartAxially { apart, limit, since: tau });
+        let (distance, limit) = (outer.position[2] - inner.position[2], space.largest_shift);
+        if !(distance.abs() <= limit) {
+            return Err(StepError::AxialDistance { distance, limit, since: tau });
         }
     }
     let shaft = model.shaft_state(excitation, tau, &progress.state).position;

@@ -104,7 +104,7 @@ impl<'a> ConjugateGradients<'a> {
         Ok(Self { problem, tolerance, levels })
     }
 
-    /// Solves at the approach δ (m).
+    /// Solves at the approach δ (m); a contact may reach the grid's border ([`GridProblem::check_border`]).
     ///
     /// # Errors
     /// When the iteration does not end.

@@ -1,7 +1,8 @@
 //! One stored contact problem: an undeformed gap on a regular grid, pressed together by a given approach or force.
 //!
 //! u_i = Σ_j p_j k(i − j)/(π E*), p ≥ 0, u + h − δ ≥ 0, complementary; k is Love's kernel, cells are loaded uniformly
-//! and matched at their centres. Beyond the grid nothing touches.
+//! and matched at their centres. Beyond the grid nothing touches: whoever
+//! asks for bodies that go on there checks that a contact does not reach the border ([`GridProblem::check_border`]).
 
 use brinell::contact::error::ContactError;
 
@@ -32,9 +33,9 @@ pub struct GridContact {
     pub iterations: usize,
 }
 
-/// The contact under a force (N) of bodies that `solve` presses to an approach (m), to a relative `limit` of the force:
-/// secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known to be too small and
-/// too large.
+/// The contact under a force (N), which is positive, of bodies that `solve` presses to an approach (m), to a relative
+/// `limit` of the force: secants on F^(2/3), which Hertz makes a straight line, kept between approaches that are known
+/// to be too small and too large.
 ///
 /// # Errors
 /// Those of `solve`, and a force that is not met.

@@ -16,7 +16,8 @@
 //! It stands on rigid rings that keep their shape: with 100 µm depth a real ring bends before. A compliance in series
 //! with the contacts is the crudest allowance for that.
 
-use super::static_bearing::{StaticBearing, StaticError};
+use super::static_bearing::StaticBearing;
+use super::study::StaticError;
 use brinell::contact::law::{Elasticity, ForceLaw};
 use brinell::dynamics::equilibrium::EquilibriumError;
 use brinell::scene::DefectOn;

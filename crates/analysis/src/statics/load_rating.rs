@@ -21,18 +21,22 @@ const LARGE: f64 = 25.4;
 /// ISO 76's 44 (1 − γ) Z L D (rollers, N and mm).
 pub fn static_rating(bearing: &Bearing) -> f64 {
     let count = bearing.element_count as f64;
-    if let RollingElement::CylindricalRoller(roller) = &bearing.element {
-        let gamma = bearing.element_diameter / bearing.pitch_diameter;
-        return 44e6 * (1.0 - gamma) * count * roller.length * bearing.element_diameter;
+    match &bearing.element {
+        RollingElement::CylindricalRoller(roller) => {
+            let gamma = bearing.element_diameter / bearing.pitch_diameter;
+            44e6 * (1.0 - gamma) * count * roller.length * bearing.element_diameter
+        }
+        RollingElement::Ball => {
+            let constants = HertzConstants::of(bearing);
+            let sides = [(RacewaySide::Inner, constants.inner), (RacewaySide::Outer, constants.outer)];
+            let [inner, outer] = sides.map(|(side, constant)| {
+                let [a, b] = ElementOnRaceway::of(bearing, side).contact_half_axes(approach_under(1.0, constant));
+                // The pressure grows with the cube root of the force.
+                pow(STATIC_PRESSURE * std::f64::consts::TAU * a * b / 3.0, 3.0)
+            });
+            inner.min(outer) * count / STRIBECK
+        }
     }
-    let constants = HertzConstants::of(bearing);
-    let sides = [(RacewaySide::Inner, constants.inner), (RacewaySide::Outer, constants.outer)];
-    let [inner, outer] = sides.map(|(side, constant)| {
-        let [a, b] = ElementOnRaceway::of(bearing, side).contact_half_axes(approach_under(1.0, constant));
-        // The pressure grows with the cube root of the force.
-        pow(STATIC_PRESSURE * std::f64::consts::TAU * a * b / 3.0, 3.0)
-    });
-    inner.min(outer) * count / STRIBECK
 }
 
 /// Basic dynamic load rating C (N) of ISO 281 for one row, contact angle 0.
@@ -40,18 +44,23 @@ pub fn dynamic_rating(bearing: &Bearing) -> f64 {
     let (count, diameter) = (bearing.element_count as f64, 1e3 * bearing.element_diameter);
     let gamma = bearing.element_diameter / bearing.pitch_diameter;
     let share = (1.0 - gamma) / (1.0 + gamma);
-    if let RollingElement::CylindricalRoller(roller) = &bearing.element {
-        let both = pow(1.0 + pow(1.04 * pow(share, 143.0 / 108.0), 4.5), -2.0 / 9.0);
-        let factor = ROLLERS * both * pow(gamma, 2.0 / 9.0) * pow(1.0 - gamma, 29.0 / 27.0) / pow(1.0 + gamma, 0.25);
-        return factor * pow(1e3 * roller.length, 7.0 / 9.0) * pow(count, 0.75) * pow(diameter, 29.0 / 27.0);
+    match &bearing.element {
+        RollingElement::CylindricalRoller(roller) => {
+            let both = pow(1.0 + pow(1.04 * pow(share, 143.0 / 108.0), 4.5), -2.0 / 9.0);
+            let small = pow(gamma, 2.0 / 9.0) * pow(1.0 - gamma, 29.0 / 27.0) / pow(1.0 + gamma, 0.25);
+            let size = pow(1e3 * roller.length, 7.0 / 9.0) * pow(count, 0.75) * pow(diameter, 29.0 / 27.0);
+            ROLLERS * both * small * size
+        }
+        RollingElement::Ball => {
+            let groove = |f: f64| 2.0 * f / (2.0 * f - 1.0);
+            let (inner, outer) = (bearing.conformity_inner, bearing.conformity_outer);
+            let osculation = pow(inner / outer * (2.0 * outer - 1.0) / (2.0 * inner - 1.0), 0.41);
+            let both = pow(1.0 + pow(1.04 * pow(share, 1.72) * osculation, 10.0 / 3.0), -0.3);
+            let factor = BALLS * both * pow(gamma, 0.3) * pow(1.0 - gamma, 1.39) / pow(1.0 + gamma, 1.0 / 3.0);
+            let power = if diameter <= LARGE { pow(diameter, 1.8) } else { 3.647 * pow(diameter, 1.4) };
+            factor * pow(groove(inner), 0.41) * pow(count, 2.0 / 3.0) * power
+        }
     }
-    let groove = |f: f64| 2.0 * f / (2.0 * f - 1.0);
-    let (inner, outer) = (bearing.conformity_inner, bearing.conformity_outer);
-    let osculation = pow(inner / outer * (2.0 * outer - 1.0) / (2.0 * inner - 1.0), 0.41);
-    let both = pow(1.0 + pow(1.04 * pow(share, 1.72) * osculation, 10.0 / 3.0), -0.3);
-    let factor = BALLS * both * pow(gamma, 0.3) * pow(1.0 - gamma, 1.39) / pow(1.0 + gamma, 1.0 / 3.0);
-    let power = if diameter <= LARGE { pow(diameter, 1.8) } else { 3.647 * pow(diameter, 1.4) };
-    factor * pow(groove(inner), 0.41) * pow(count, 2.0 / 3.0) * power
 }
 
 #[cfg(test)]

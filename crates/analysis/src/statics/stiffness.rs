@@ -4,7 +4,8 @@
 //! stiffness is smooth; there it jumps or has a sharp dip, as a Hertz contact begins without stiffness. A [`sweep`]
 //! therefore adds the two sides of each such change to its evenly spaced angles, so that least and greatest are exact.
 
-use super::static_bearing::{Balance, StaticBearing, StaticError};
+use super::static_bearing::{Balance, StaticBearing};
+use super::study::StaticError;
 
 /// Width of the bracket in which a change is found (rad).
 const NARROW: f64 = 1e-7;

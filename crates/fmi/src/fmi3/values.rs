@@ -1,6 +1,6 @@
 //! How scalars and arrays are read and set: all of a call's variables or none.
 
-use crate::instance::{Addressing, Failure, Instance, Mode, ValueCount, exchange, finite};
+use crate::instance::{Addressing, Failure, Instance, Mode, ValueCount, finite, values};
 use brinell::simulation::VariableError;
 use brinell::simulation::interface::table::Kind;
 
@@ -65,7 +65,7 @@ pub(super) fn read(instance: &mut Instance, references: &[u32], values: &mut [f6
         let rows = addressing.rows(reference)?;
         let (of_this, later) = rest.split_at_mut(rows.len().max(1));
         if addressing.is_exchanged(*reference) {
-            of_this.fill(exchange::value(simulation, *reference)?);
+            of_this.fill(values::value(simulation, *reference)?);
         } else if rows.is_empty() {
             of_this.fill(clock.map_or(simulation.time(), |clock| clock.time));
         } else {

@@ -52,7 +52,7 @@ fn runs_of_one_length_are_in_one_part_of_the_data_set() {
     let text = QUICK.replace("seed = 3", "seed = 3\nsplit = [0.5, 0.25, 0.25]\nsplit_by = [\"defect.length_mm\"]");
     let (path, out) = (file(&folder, &text.replace("[1, 2]", "[0.8, 1.2, 1.6, 2]")), folder.join("out"));
     sweep(&path, &out, &[]);
-    let pairs = words(&out, "defect.length_mm").into_iter().zip(words(&out, "split"));
+    let pairs = column(&out, "defect.length_mm").into_iter().map(|length| length.to_string()).zip(words(&out, "split"));
     // Healthy runs have none.
     let mut pairs: Vec<_> = pairs.filter(|(length, _)| length != "null").collect();
     pairs.sort();

@@ -37,6 +37,12 @@ fn the_example_is_a_sweep_and_names_every_key() {
     let once = file(&folder, &text.replacen("runs = 48", "runs = 24", 1));
     let told = sweep(&once, &folder.join("out"), &["--signals"]);
     assert!(told.contains("24 runs, 24 of them made now, 0 failed"), "{told}");
+    // The others can be made as well.
+    let shipped = common::root().join("examples/sweep.toml");
+    for run in 24..48 {
+        let scene = scene_of(&shipped, &folder.join("out"), &run.to_string());
+        brinell_scene_file::from_toml(&scene).unwrap_or_else(|refusal| panic!("run {run}: {refusal}"));
+    }
     let noise = ["noise_db", "noise_rms_m_s2", "noise_color", "noise_spectrum"];
     let others = ["runs", "seed", "stop_s", "settle_s", "rate_hz", "filter", "kinds", "speed_profiles"];
     for key in noise.into_iter().chain(others).chain(["split", "split_by"]) {

@@ -98,9 +98,14 @@ fn all(out: &Path, name: &str) -> Vec<f64> {
     numbers(out, name).into_iter().map(|number| number.unwrap_or_else(|| panic!("{name} lacks one"))).collect()
 }
 
-/// Words of a column.
+/// Words of a column of text.
 fn words(out: &Path, name: &str) -> Vec<String> {
-    column(out, name).iter().map(|field| field.to_string().trim_matches('"').to_owned()).collect()
+    let word = |field: Field| match field {
+        Field::Str(word) => word,
+        Field::Null => "null".to_owned(),
+        other => panic!("{name} is no column of text: {other}"),
+    };
+    column(out, name).into_iter().map(word).collect()
 }
 
 /// Every file of a sweep that is to have the same bits, by its name.

@@ -196,7 +196,7 @@ pub fn mean(signal: &[f64], starts: &[f64], period: f64, points: usize) -> Vec<f
     mean
 }
 
-/// Mean of the rows, point by point.
+/// Mean of the rows, point by point; there is at least one.
 pub fn average<'a>(rows: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<f64> {
     let (mut sum, mut count) = (Vec::new(), 0.0);
     for row in rows {
