@@ -7,6 +7,7 @@
 mod catalogue;
 mod diagnosis;
 mod quantities;
+mod rivals;
 mod schema;
 mod spelling;
 mod tables;
@@ -14,6 +15,7 @@ mod units;
 
 pub use catalogue::{CatalogueBearing, Inside, NotInCatalogue, catalogue, catalogued};
 pub use diagnosis::{Hint, KeyFault, SceneFileError, toml_fault};
+pub use rivals::replaces;
 pub use schema::{description, schema};
 pub use spelling::nearest;
 pub use units::{DepthRemark, UnitQuestion, UnitRemark};

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use brinell::scene::{ContactLaw, Defect, DefectShape, Scene};
 use brinell::simulation::setup::largest_force;
+use brinell_scene_file::replaces;
 use toml::{Table, Value};
 
 use super::design::Run;
@@ -12,14 +13,6 @@ use super::file::{Kind, Sweep, number};
 use crate::package::model;
 use crate::shared::note;
 
-/// Keys that are two ways to say one thing: who gives the first takes the others away.
-const INSTEAD: [(&str, &[&str]); 5] = [
-    ("defect.length_mm", &["length_deg", "profile"]),
-    ("defect.length_deg", &["length_mm", "profile"]),
-    ("defect.profile", &["length_mm", "length_deg", "depth_um", "edge_slope_deg"]),
-    ("bearing.radial_clearance_um", &["internal_clearance_um"]),
-    ("bearing.internal_clearance_um", &["radial_clearance_um"]),
-];
 /// Loads: a number is along the scene's load, downwards where that has none.
 pub(super) const LOADS: [&str; 2] = ["shaft.load_n", "housing.load_n"];
 /// Maps for many defects are coarser than that of one studied closely: 0.4 % of the largest force, for a third of the
@@ -66,11 +59,9 @@ impl Base {
         let healthy = run.kind == Some(Kind::Healthy);
         let given: Vec<(&str, &Value)> = set.chain(of_run).filter(|(key, _)| !(healthy && is_of_defect(key))).collect();
         for (key, _) in &given {
-            let Some((_, others)) = INSTEAD.iter().find(|(instead, _)| instead == key) else { continue };
-            let inner = inner(&mut table, key)?.0;
-            others.iter().for_each(|other| {
-                inner.remove(*other);
-            });
+            let (inner, last) = inner(&mut table, key)?;
+            let path = key.strip_suffix(last).unwrap_or_default();
+            inner.retain(|other, _| !replaces(key, &format!("{path}{other}")));
         }
         for (key, value) in given {
             let (inner, last) = inner(&mut table, key)?;

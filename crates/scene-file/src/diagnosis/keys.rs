@@ -6,15 +6,16 @@ use super::locations::{Found, Location};
 use super::not_modelled::instead_of;
 use super::toml_kinds::Keys;
 use super::values;
+use crate::rivals::exclude_each_other;
 use crate::spelling::nearest;
 use toml::de::DeValue;
 
-/// Table, two keys of which one is needed, and keys that go without both.
-const ALTERNATIVES: [(&str, [&str; 2], Keys); 4] = [
-    ("bearing", GROOVES, &["conformity_outer"]),
-    ("bearing", ["density_kg_m3", "element_mass_g"], &[]),
-    ("defect", ["length_deg", "length_mm"], &["profile"]),
-    ("defect", ["depth_um", "profile"], &[]),
+/// Table, and two keys of which one is needed, or a key that excludes the first.
+const ALTERNATIVES: [(&str, [&str; 2]); 4] = [
+    ("bearing", GROOVES),
+    ("bearing", ["density_kg_m3", "element_mass_g"]),
+    ("defect", ["length_deg", "length_mm"]),
+    ("defect", ["depth_um", "profile"]),
 ];
 
 /// Two keys of which balls need one, and the key that rollers need instead, with the words for both.
@@ -75,12 +76,13 @@ pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn F
     if kind == Some(ROLLER) && !there.contains(&ROLLER_LENGTH) {
         keep(KeyFault::Missing { line: head, key: path(name, ROLLER_LENGTH, false), with: &[] }, &[ROLLER_LENGTH]);
     }
-    for (_, two, instead) in ALTERNATIVES.iter().filter(|(table, ..)| *table == name) {
+    for (_, two) in ALTERNATIVES.iter().filter(|(table, _)| *table == name) {
         if two == &GROOVES && kind.is_some_and(|kind| kind != BALL) {
             continue;
         }
-        if !two.iter().chain(*instead).any(|key| there.contains(key)) {
-            keep(KeyFault::Neither { line: head, keys: two.map(|key| path(name, key, false)) }, two);
+        let keys = two.map(|key| path(name, key, false));
+        if !there.iter().any(|key| two.contains(key) || exclude_each_other(&keys[0], &path(name, key, false))) {
+            keep(KeyFault::Neither { line: head, keys }, two);
         }
     }
     findings

@@ -1,6 +1,8 @@
 //! A scene file without what is wrong with it: what was left out is ignored, and the rest can be checked.
 
+use super::all_tables::path;
 use super::locations::{Location, at_mut, table_mut};
+use crate::rivals::exclude_each_other;
 use crate::tables::{Faults, SceneFile, TableFault};
 use brinell::scene::Scene;
 use serde::Deserialize;
@@ -18,29 +20,29 @@ enum StandIn {
 }
 use StandIn::{Bearing, Value};
 
-/// Table, key, what stands for it, and keys that go without it.
-const STAND_INS: [(&str, &str, StandIn, &[&str]); 21] = [
-    ("", "name", Value("'scene'"), &[]),
-    ("", "bearing", Value("{}"), &[]),
-    ("", "shaft", Value("{}"), &[]),
-    ("", "housing", Value("{}"), &[]),
-    ("bearing", "catalogue", Bearing, &[]),
-    ("film", "viscosity_pa_s", Value("0.04"), &[]),
-    ("film", "pressure_viscosity_1_pa", Value("2e-8"), &[]),
-    ("cage", "seed", Value("0"), &[]),
-    ("defect", "angle_deg", Value("0.0"), &[]),
-    ("defect", "length_mm", Value("1.0"), &["length_deg", "profile"]),
-    ("defect", "depth_um", Value("1.0"), &["profile"]),
-    ("waviness", "order", Value("2"), &[]),
-    ("waviness", "amplitude_um", Value("0.0"), &[]),
-    ("waviness", "angle_deg", Value("0.0"), &[]),
-    ("shaft", "motion", Value("'internal'"), &[]),
-    ("shaft", "speed_hz", Value("0.0"), &[]),
-    ("housing", "motion", Value("'internal'"), &[]),
-    ("sensor.mode", "frequency_hz", Value("1e3"), &[]),
-    ("sensor.mode", "damping_ratio", Value("0.1"), &[]),
-    ("sensor.mode", "gain", Value("1.0"), &[]),
-    ("recorder", "rate_hz", Value("51200.0"), &[]),
+/// Table, key, and what stands for it where no key is there that excludes it.
+const STAND_INS: [(&str, &str, StandIn); 21] = [
+    ("", "name", Value("'scene'")),
+    ("", "bearing", Value("{}")),
+    ("", "shaft", Value("{}")),
+    ("", "housing", Value("{}")),
+    ("bearing", "catalogue", Bearing),
+    ("film", "viscosity_pa_s", Value("0.04")),
+    ("film", "pressure_viscosity_1_pa", Value("2e-8")),
+    ("cage", "seed", Value("0")),
+    ("defect", "angle_deg", Value("0.0")),
+    ("defect", "length_mm", Value("1.0")),
+    ("defect", "depth_um", Value("1.0")),
+    ("waviness", "order", Value("2")),
+    ("waviness", "amplitude_um", Value("0.0")),
+    ("waviness", "angle_deg", Value("0.0")),
+    ("shaft", "motion", Value("'internal'")),
+    ("shaft", "speed_hz", Value("0.0")),
+    ("housing", "motion", Value("'internal'")),
+    ("sensor.mode", "frequency_hz", Value("1e3")),
+    ("sensor.mode", "damping_ratio", Value("0.1")),
+    ("sensor.mode", "gain", Value("1.0")),
+    ("recorder", "rate_hz", Value("51200.0")),
 ];
 
 /// Keys from which a bearing's dimensions are.
@@ -88,10 +90,11 @@ impl<'t> Repaired<'t> {
 
     /// What is still wrong; nothing where that is not known.
     pub(super) fn errors(&mut self) -> Vec<TableFault> {
-        for (name, key, stand_in, instead) in STAND_INS {
+        for (name, key, stand_in) in STAND_INS {
+            let own = path(name, key, false);
             each(self.file.get_mut(), name, &mut |table| {
                 if !table.contains_key(key)
-                    && !instead.iter().any(|other| table.contains_key(*other))
+                    && !table.keys().any(|other| exclude_each_other(&own, &path(name, other.get_ref(), false)))
                     && let Ok(value) = DeValue::parse(stand_in.written(table))
                 {
                     table.insert(Spanned::new(0..0, Cow::Borrowed(key)), value);

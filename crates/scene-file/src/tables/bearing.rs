@@ -1,7 +1,7 @@
 //! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
 
 use super::diameters::Diameters;
-use super::faults::{Faults, TableFault};
+use super::faults::{Faults, TableFault, only_one};
 use crate::catalogue::{CatalogueBearing, NotInCatalogue, catalogued};
 use brinell::scene::quantity::ELEMENT_COUNT;
 use brinell::scene::{
@@ -212,12 +212,9 @@ impl BearingTable {
             ("bearing.axial_clearance_um", self.axial_clearance_um.map(|um| Clearance::AxialPlay(um / 1e6))),
             ("bearing.contact_angle_deg", self.contact_angle_deg.map(|deg| Clearance::ContactAngle(deg.to_radians()))),
         ];
-        let mut given = given.into_iter().filter_map(|(key, clearance)| clearance.map(|clearance| (key, clearance)));
-        match (given.next(), given.next()) {
-            (Some((first, _)), Some((second, _))) => Err(TableFault::Both { first, second }),
-            (Some((_, clearance)), None) => Ok(clearance),
-            (None, _) => Ok(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6)),
-        }
+        only_one(&given.each_ref().map(|(key, clearance)| (*key, clearance.is_some())))?;
+        let given = given.into_iter().find_map(|(_, clearance)| clearance);
+        Ok(given.unwrap_or(Clearance::Radial(DEFAULT_CLEARANCE_UM / 1e6)))
     }
 
     fn rolling_element(&self) -> Result<RollingElement, Faults> {
@@ -259,14 +256,14 @@ impl BearingTable {
         const GROOVE: &str = "bearing.groove_diameter_mm";
         const INNER: &str = "bearing.conformity_inner";
         const OUTER: &str = "bearing.conformity_outer";
-        match (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer) {
-            (Some(groove), None, None) => {
+        let (groove, inner, outer) = (self.groove_diameter_mm, self.conformity_inner, self.conformity_outer);
+        only_one(&[(GROOVE, groove.is_some()), (INNER, inner.is_some()), (OUTER, outer.is_some())])?;
+        match (groove, inner, outer) {
+            (Some(groove), ..) => {
                 let conformity = groove / (2.0 * element_diameter_mm);
                 Ok((conformity, conformity))
             }
             (None, Some(inner), Some(outer)) => Ok((inner, outer)),
-            (Some(_), Some(_), _) => Err(TableFault::Both { first: GROOVE, second: INNER }),
-            (Some(_), None, Some(_)) => Err(TableFault::Both { first: GROOVE, second: OUTER }),
             (None, None, None) => Err(TableFault::Neither { first: GROOVE, second: INNER }),
             (None, None, Some(_)) => {
                 Err(TableFault::Missing { key: INNER, why: "bearing.conformity_outer is given without it" })

@@ -1,6 +1,6 @@
 //! The table `[cage]` of the scene file.
 
-use super::faults::{Faults, TableFault};
+use super::faults::{Faults, TableFault, only_one};
 use brinell::scene::quantity::CAGE_SPACING_RMS;
 use brinell::scene::{Cage, CageIrregularity, SceneError};
 use schemars::JsonSchema;
@@ -35,10 +35,6 @@ enum Preset {
     Recorded,
 }
 
-const SPACING: &str = "cage.spacing_deg";
-const SPACING_RMS: &str = "cage.spacing_rms_deg";
-const PRESET: &str = "cage.irregularity";
-
 impl CageTable {
     pub(crate) fn into_cage(self, count: usize) -> Result<Cage, Faults> {
         let initial_angle = self.initial_angle_deg.unwrap_or(-90.0).to_radians();
@@ -46,20 +42,13 @@ impl CageTable {
     }
 
     fn irregularity(&self, count: usize) -> Result<Option<CageIrregularity>, Faults> {
-        if self.irregularity.is_some() {
-            let given = [
-                (SPACING, self.spacing_deg.is_some()),
-                (SPACING_RMS, self.spacing_rms_deg.is_some()),
-                ("cage.jitter_rms_deg", self.jitter_rms_deg.is_some()),
-                ("cage.wander", self.wander.is_some()),
-            ];
-            if let Some((second, _)) = given.into_iter().find(|(_, given)| *given) {
-                return Err(TableFault::Both { first: PRESET, second }.into());
-            }
-        }
-        if self.spacing_deg.is_some() && self.spacing_rms_deg.is_some() {
-            return Err(TableFault::Both { first: SPACING, second: SPACING_RMS }.into());
-        }
+        only_one(&[
+            ("cage.irregularity", self.irregularity.is_some()),
+            ("cage.spacing_deg", self.spacing_deg.is_some()),
+            ("cage.spacing_rms_deg", self.spacing_rms_deg.is_some()),
+            ("cage.jitter_rms_deg", self.jitter_rms_deg.is_some()),
+            ("cage.wander", self.wander.is_some()),
+        ])?;
         let degrees = |key: Option<f64>| key.unwrap_or(0.0).to_radians();
         let [spacing, jitter, wander] = match self.irregularity {
             Some(Preset::Recorded) => {

@@ -1,6 +1,6 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
-use super::faults::{Faults, TableFault};
+use super::faults::{Faults, TableFault, only_one};
 use brinell::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -40,6 +40,9 @@ pub(super) enum Body {
     Element,
 }
 
+const DEGREES: &str = "defect.length_deg";
+const MILLIMETRES: &str = "defect.length_mm";
+
 impl DefectTable {
     fn on(&self, bearing: &Bearing) -> Result<DefectOn, Faults> {
         if self.on != Body::Element {
@@ -67,19 +70,15 @@ impl DefectTable {
     pub(super) fn into_defect(self, bearing: &Bearing) -> Result<Defect, Faults> {
         let on = self.on(bearing)?;
         let angle = self.angle_deg.to_radians();
+        only_one(&[
+            ("defect.profile", self.profile.is_some()),
+            (DEGREES, self.length_deg.is_some()),
+            (MILLIMETRES, self.length_mm.is_some()),
+            ("defect.depth_um", self.depth_um.is_some()),
+            ("defect.edge_slope_deg", self.edge_slope_deg.is_some()),
+        ])?;
         let shape = match self.profile {
-            Some(name) => {
-                let given = [
-                    ("defect.length_deg", self.length_deg),
-                    ("defect.length_mm", self.length_mm),
-                    ("defect.depth_um", self.depth_um),
-                    ("defect.edge_slope_deg", self.edge_slope_deg),
-                ];
-                if let Some((second, _)) = given.into_iter().find(|(_, value)| value.is_some()) {
-                    return Err(TableFault::Both { first: "defect.profile", second }.into());
-                }
-                DefectShape::Profile(name)
-            }
+            Some(name) => DefectShape::Profile(name),
             None => DefectShape::Spall {
                 length: spall_length(self.length_deg, self.length_mm, on.radius(bearing))?,
                 depth: self
@@ -94,12 +93,9 @@ impl DefectTable {
 }
 
 fn spall_length(degrees: Option<f64>, millimetres: Option<f64>, radius: f64) -> Result<f64, TableFault> {
-    const DEGREES: &str = "defect.length_deg";
-    const MILLIMETRES: &str = "defect.length_mm";
     match (degrees, millimetres) {
-        (Some(degrees), None) => Ok(degrees.to_radians() * radius),
+        (Some(degrees), _) => Ok(degrees.to_radians() * radius),
         (None, Some(millimetres)) => Ok(millimetres / 1e3),
-        (Some(_), Some(_)) => Err(TableFault::Both { first: DEGREES, second: MILLIMETRES }),
         (None, None) => Err(TableFault::Neither { first: DEGREES, second: MILLIMETRES }),
     }
 }

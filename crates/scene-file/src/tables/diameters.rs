@@ -1,6 +1,6 @@
 //! Elements of unequal size, as the table `[bearing]` has them.
 
-use super::faults::{Faults, TableFault};
+use super::faults::{Faults, TableFault, only_one};
 use brinell::scene::quantity::DIAMETER_RMS;
 use brinell::scene::{Bearing, BearingError, DrawnDiameters, SceneError};
 
@@ -18,20 +18,18 @@ pub(super) struct Diameters {
 impl Diameters {
     /// Diameter of each element beyond the nominal one; none of equal elements.
     pub(super) fn put_into(&self, bearing: &mut Bearing) -> Result<(), Faults> {
+        let given = [self.offsets_um.is_some(), self.rms_um.is_some(), self.seed.is_some()];
+        only_one(&[(OFFSETS, given[0]), (RMS, given[1]), (SEED, given[2])])?;
         match (&self.offsets_um, self.rms_um) {
-            (Some(_), Some(_)) => return Err(TableFault::Both { first: OFFSETS, second: RMS }.into()),
-            (Some(_), None) if self.seed.is_some() => {
-                return Err(TableFault::Both { first: OFFSETS, second: SEED }.into());
-            }
             (None, None) if self.seed.is_some() => {
                 let why = "bearing.element_diameter_seed draws diameters of that size";
                 return Err(TableFault::Missing { key: RMS, why }.into());
             }
-            (Some(given), None) if given.len() != bearing.element_count => {
+            (Some(given), _) if given.len() != bearing.element_count => {
                 let (found, count) = (given.len(), bearing.element_count);
                 return Err(SceneError::from(BearingError::DiameterCount { found, count }).into());
             }
-            (Some(given), None) if given.iter().any(|&um| um != 0.0) => {
+            (Some(given), _) if given.iter().any(|&um| um != 0.0) => {
                 bearing.diameter_offsets = given.iter().map(|um| um / 1e6).collect();
             }
             (None, Some(um)) => {
@@ -41,7 +39,7 @@ impl Diameters {
                 let seed = self.seed.or((um == 0.0).then_some(0)).ok_or(missing)?;
                 bearing.draw_diameters(DrawnDiameters { rms: um / 1e6, seed });
             }
-            (Some(_) | None, None) => {}
+            (Some(_), _) | (None, None) => {}
         }
         Ok(())
     }

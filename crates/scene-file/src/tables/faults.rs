@@ -1,6 +1,7 @@
 //! Why tables are no scene: keys that contradict each other, and all that the check of a scene refuses.
 
 use crate::NotInCatalogue;
+use crate::rivals::exclude_each_other;
 use crate::spelling::nearest;
 use brinell::scene::{BearingError, DefectError, DegreesOfFreedom, FreedomError, Motion, SceneError, WavinessError};
 use std::error::Error;
@@ -123,6 +124,17 @@ fn is_of_dimensions(error: &SceneError) -> bool {
         ),
         _ => matches!(error, SceneError::SpacingCount { .. } | SceneError::OffPocket { .. }),
     }
+}
+
+/// Refuses two keys that exclude each other; of each key whether it is given.
+pub(super) fn only_one(keys: &[(&'static str, bool)]) -> Result<(), TableFault> {
+    let given: Vec<&'static str> = keys.iter().filter(|(_, is_given)| *is_given).map(|(key, _)| *key).collect();
+    for (index, first) in given.iter().enumerate() {
+        if let Some(second) = given[index..].iter().find(|second| exclude_each_other(first, second)) {
+            return Err(TableFault::Both { first, second });
+        }
+    }
+    Ok(())
 }
 
 /// All that is wrong: a reader mends it at once, not one fault after the other.

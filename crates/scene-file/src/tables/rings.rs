@@ -1,6 +1,6 @@
 //! The tables `[shaft]`, `[housing]`, `[sensor]` and `[probe]` of the scene file.
 
-use super::faults::{Faults, TableFault};
+use super::faults::{Faults, TableFault, only_one};
 use super::short_lists::{Vector, pair, triple};
 use brinell::scene::DegreesOfFreedom::{self, Five, Three, Two};
 use brinell::scene::{AxialSupport, FreedomError, Motion, Ring, SceneError, Sensor, SensorMode, TiltSupport};
@@ -221,15 +221,12 @@ impl SensorTable {
             damping: self.damping_n_s_m,
             modes: self.mode.into_iter().map(SensorModeTable::into_mode).collect(),
         };
-        match (self.direction_deg, self.direction) {
-            (Some(_), Some(_)) => {
-                return Err(TableFault::Both { first: "sensor.direction_deg", second: "sensor.direction" });
-            }
-            (None, Some([0.0, 0.0, 0.0])) => {
-                return Err(TableFault::Scene(SceneError::from(FreedomError::NoDirection)));
-            }
-            (None, Some(vector)) => sensor.set_direction(vector),
-            (_, None) => {}
+        let (degrees, vector) = (self.direction_deg.is_some(), self.direction.is_some());
+        only_one(&[("sensor.direction_deg", degrees), ("sensor.direction", vector)])?;
+        match self.direction {
+            Some([0.0, 0.0, 0.0]) => return Err(TableFault::Scene(SceneError::from(FreedomError::NoDirection))),
+            Some(vector) => sensor.set_direction(vector),
+            None => {}
         }
         Ok(sensor)
     }

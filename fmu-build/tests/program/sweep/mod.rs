@@ -9,6 +9,7 @@ mod labels;
 mod noise;
 mod oracle;
 mod rings;
+mod rivals;
 
 use crate::common;
 use crate::common::program::{brinell, done, npy};
