@@ -83,7 +83,7 @@ mod tests {
                 }
             }
         }
-        // Each of four excludes the others; two twice, four, two, three and twice one of them, two.
-        assert_eq!(pairs, 6 + 2 + 2 + 4 + 1 + (3 + 2) + 1);
+        // In the order of the table; the two spacings of a cage are met in two of its lines.
+        assert_eq!(pairs, 6 + 2 + 2 + (4 + 1) + 1 + (3 + 2) + 1);
     }
 }
