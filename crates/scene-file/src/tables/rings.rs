@@ -23,7 +23,7 @@ pub(crate) struct ShaftTable {
     /// only.
     #[schemars(extend("default" = [0.0, 0.0]))]
     load_n: Option<Vector>,
-    /// Mass.
+    /// Its mass.
     #[schemars(extend("default" = Ring::default_shaft().mass))]
     mass_kg: Option<f64>,
     /// Damping to the ground.
@@ -73,7 +73,7 @@ pub(crate) struct HousingTable {
     /// only.
     #[schemars(extend("default" = [0.0, 0.0]))]
     load_n: Option<Vector>,
-    /// Mass.
+    /// Its mass.
     #[schemars(extend("default" = Ring::default_housing().mass))]
     mass_kg: Option<f64>,
     /// Damping to the ground.
