@@ -5,21 +5,14 @@ use std::fmt::Write;
 use anyhow::{Context, Result};
 use serde_json::Value;
 
-/// Where the tables of a scene are; its head says what holds without keys.
-const TABLES: &str = include_str!("../../crates/scene-file/src/tables/mod.rs");
+/// What the page begins with.
+const HEAD: &str = include_str!("../assets/keys.md");
 
 /// Every key of a scene file, by table: what it takes, what it means, what holds without it.
 fn scene_page() -> Result<String> {
     let schema = serde_json::to_value(brinell_scene_file::schema())?;
-    let mut page = String::from(
-        "# Keys of a scene\n\nA scene is a TOML file. Every key carries its unit. This page is made of the schema \
-         that the file is read by,\nso it names every key there is, with the limits beyond which it is refused. Where \
-         the last column is empty,\n[the last section](#what-holds-without-a-key) says what holds without the key.\n",
-    );
+    let mut page = HEAD.to_owned();
     table(&mut page, &schema, &schema, "")?;
-    page.push_str("\n## What holds without a key\n\n");
-    let said = TABLES.lines().map_while(|line| line.strip_prefix("//!")).skip(2);
-    said.for_each(|line| page.extend([line.strip_prefix(' ').unwrap_or(line), "\n"]));
     Ok(page)
 }
 
@@ -40,7 +33,13 @@ fn table(page: &mut String, schema: &Value, table: &Value, path: &str) -> Result
         let takes = takes(schema, kind, &path).with_context(|| format!("what does {path} take? {property}"))?;
         let without = match &property["default"] {
             _ if needed(key) => "it is needed".to_owned(),
+            // A table that may be missing is none; of others each key has what holds without it.
+            Value::Null if of_table(schema, kind).is_some() => {
+                let is_read = property["$ref"].is_string() && kind["type"] == "object";
+                (if is_read { "what its keys say" } else { "none" }).to_owned()
+            }
             Value::Null => String::new(),
+            Value::Number(number) => number.as_f64().map(|value| format!("`{}`", digits(value))).unwrap_or_default(),
             default => format!("`{default}`"),
         };
         let about = property["description"].as_str().unwrap_or_default().replace('\n', " ");
@@ -68,12 +67,15 @@ fn of_table<'s>(schema: &'s Value, kind: &'s Value) -> Option<&'s Value> {
     one.into_iter().find(|of| of["type"] == "object")
 }
 
-/// The limits of a number, if it has any.
-fn limits(number: &Value) -> String {
-    let digits = |value: f64| match value.abs() {
+fn digits(value: f64) -> String {
+    match value.abs() {
         size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{value:e}"),
         _ => format!("{value}"),
-    };
+    }
+}
+
+/// The limits of a number, if it has any.
+fn limits(number: &Value) -> String {
     let limit = |key: &str, word: &str| number[key].as_f64().map(|value| format!("{word} {}", digits(value)));
     let low = limit("minimum", "from").or_else(|| limit("exclusiveMinimum", "above"));
     let high = limit("maximum", "to").or_else(|| limit("exclusiveMaximum", "below"));
@@ -145,7 +147,9 @@ mod tests {
         }
         for part in [
             "## `[sensor.mode]`\n",
-            "## What holds without a key\n\nKeys that may be left out",
+            "| `solver` | table | Time integration. | what its keys say |",
+            "| `film` | table | An oil film; without it contacts are dry. | none |",
+            "| `stiffness_n_m` | number, from 0, to 1e15 | Stiffness to the ground. | `1.51056e7` |",
             "## `[probe]`\n\nA table without keys.",
             "| `defect` | table; `[[defect]]` for each of several |",
             "| `mode` | table `[[sensor.mode]]`, each as often as wanted |",

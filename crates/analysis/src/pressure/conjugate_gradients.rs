@@ -12,7 +12,7 @@
 //! the surface, without hardening and without material piled up; H is the indentation hardness, three times the yield
 //! stress.
 //!
-//! For stored problems and reference solutions; last digits depend on the machine's registers.
+//! For pressures under one element and reference solutions; last digits depend on the machine's registers.
 
 use brinell::contact::error::ContactError;
 

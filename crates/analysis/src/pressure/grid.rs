@@ -1,4 +1,4 @@
-//! One stored contact problem: an undeformed gap on a regular grid, pressed together by a given approach or force.
+//! One contact on a regular grid: an undeformed gap, pressed together by a given approach or force.
 //!
 //! u_i = Σ_j p_j k(i − j)/(π E*), p ≥ 0, u + h − δ ≥ 0, complementary; k is Love's kernel, cells are loaded uniformly
 //! and matched at their centres. Beyond the grid nothing touches: whoever

@@ -23,25 +23,29 @@ const DENSITY_KG_M3: f64 = 7800.0;
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BearingTable {
-    /// Name of a deep groove, angular contact or cylindrical roller bearing, as 6205, 7205B or NU205; its dimensions
-    /// hold where no key beside it says otherwise.
+    /// Name of a deep groove, angular contact or cylindrical roller bearing, as 6205, 7205B or NU205; its elements,
+    /// its pitch diameter, conformity 0.52 and steel hold where no key beside it says otherwise. Without it dimensions
+    /// and material are needed.
     catalogue: Option<String>,
-    /// What rolls; without it balls, or what the bearing of the catalogue has.
+    /// What rolls; without it balls, or what the bearing of the catalogue has. Cylindrical rollers need
+    /// roller_length_mm and have no groove.
     element: Option<ElementKind>,
-    /// Effective length of a roller, without its chamfers; rollers only, as the next two.
+    /// Effective length of a roller, without its chamfers; rollers need it, and only they have keys of rollers.
     roller_length_mm: Option<f64>,
-    /// Relief of a roller's ends: "log", the crown of ISO/TS 16281, without it; or "straight", or a file of
-    /// axial_mm and depth_um.
+    /// Relief of a roller's ends: "log", the crown of ISO/TS 16281, or "straight", or a file of axial_mm and depth_um.
+    #[schemars(extend("default" = "log"))]
     roller_profile: Option<String>,
-    /// Laminae into which a roller is cut; 40 without it.
+    /// Laminae into which a roller is cut.
+    #[schemars(extend("default" = Roller::LAMINAE))]
     roller_laminae: Option<u32>,
     /// Number of balls or rollers.
     element_count: Option<usize>,
     /// Their diameter.
     element_diameter_mm: Option<f64>,
-    /// Diameter of each element beyond that. With 2 degrees of freedom only, as the next two.
+    /// Diameter of each element beyond element_diameter_mm; equal elements without it. With 2 degrees of freedom only,
+    /// as diameters that are drawn.
     element_diameter_offsets_um: Option<Vec<f64>>,
-    /// Root mean square of such differences that are drawn, of sum 0; instead of the list.
+    /// Root mean square of differences of diameters that are drawn, of sum 0; instead of the list.
     element_diameter_rms_um: Option<f64>,
     /// Which elements of that kind; needed where they are drawn.
     element_diameter_seed: Option<u64>,
@@ -53,18 +57,20 @@ pub(crate) struct BearingTable {
     conformity_inner: Option<f64>,
     /// The same of the outer ring.
     conformity_outer: Option<f64>,
-    /// What separates a raceway from an element pressed to the other.
+    /// What separates a raceway from an element pressed to the other, R_o − R_i − 2r; one of the four that say how
+    /// loose the bearing is.
+    #[schemars(extend("default" = DEFAULT_CLEARANCE_UM))]
     radial_clearance_um: Option<f64>,
-    /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the two.
+    /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the four.
     internal_clearance_um: Option<f64>,
     /// Total axial play from stop to stop; one of the four. 3 or 5 degrees of freedom only.
     axial_clearance_um: Option<f64>,
     /// Free contact angle of an angular contact bearing, positive where it takes pushes of the inner ring towards +z;
     /// one of the four. 3 or 5 degrees of freedom only.
     contact_angle_deg: Option<f64>,
-    /// In how many directions the rings move: 2, along x and y, without it; 3, and along z; 5, and they tilt about x
-    /// and y. Balls only.
-    #[schemars(extend("enum" = [2, 3, 5]))]
+    /// In how many directions the rings move: 2, along x and y; 3, and along z; 5, and they tilt about x and y. 3 and 5
+    /// with balls only.
+    #[schemars(extend("enum" = [2, 3, 5], "default" = DegreesOfFreedom::Two.count()))]
     degrees_of_freedom: Option<i64>,
     /// Contact angle for which cage, spin and tracks are worked out; without it the free one where it is given, else
     /// that of the start's equilibrium.
@@ -72,28 +78,28 @@ pub(crate) struct BearingTable {
     /// Height of the inner ring's shoulder above the groove's bottom, on the loaded side; nothing is reported without
     /// it.
     shoulder_inner_mm: Option<f64>,
-    /// The same of the outer ring.
+    /// The same of the outer ring's shoulder.
     shoulder_outer_mm: Option<f64>,
-    /// Who holds the balls' gyroscopic couple: "none" without it; of balls without inertia only.
+    /// Who holds the balls' gyroscopic couple; of balls without inertia only.
     #[serde(default)]
     gyroscopic: Gyroscopic,
     /// Of rings and elements.
     youngs_modulus_gpa: Option<f64>,
     /// Of rings and elements.
     poissons_ratio: Option<f64>,
-    /// Of the elements.
+    /// Of the elements; without it that of element_mass_g, which is then needed.
     density_kg_m3: Option<f64>,
-    /// Mass of one element; instead of the density.
+    /// Mass of one element; computed from the density without it.
     element_mass_g: Option<f64>,
     /// Hertz constant of the inner contact; computed without it. Balls only.
     hertz_inner_n_m1_5: Option<f64>,
     /// Hertz constant of the outer contact; computed without it. Balls only.
     hertz_outer_n_m1_5: Option<f64>,
-    /// By how much the outer raceway yields to one element; 0 without it.
+    /// By how much the outer raceway yields to one element; rings and seats are rigid where it is 0.
     #[serde(default)]
     outer_compliance_m_n: f64,
-    /// "full" without it: elements vibrate between the raceways. "none": each is in radial balance at every
-    /// instant, for rotor studies below 2 kHz.
+    /// "full": elements vibrate between the raceways. "none": each is in radial balance at every instant, for rotor
+    /// studies below 2 kHz.
     #[serde(default)]
     element_inertia: ElementInertia,
 }

@@ -3,7 +3,9 @@
 use super::faults::{Faults, TableFault, only_one};
 use brinell::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+
+const EDGE_SLOPE_DEG: f64 = 90.0;
 
 /// A defect.
 #[derive(JsonSchema, Deserialize)]
@@ -12,26 +14,29 @@ pub(crate) struct DefectTable {
     /// The body that has it.
     #[serde(default)]
     on: Body,
-    /// Which element, from 1.
+    /// Which element, from 1; a defect on an element needs it.
     element: Option<i64>,
     /// How far the defect of a ball lies off its rolling track.
+    #[schemars(extend("default" = 0.0))]
     tilt_deg: Option<f64>,
     /// Where its middle is at the start, counter-clockwise from +x; on an element 0 faces the outer raceway.
     angle_deg: f64,
-    /// Length as an angle about the centre of the body.
+    /// Length as an angle about the centre of the body; this or length_mm, without a profile. A host that sets another
+    /// clearance keeps the length, not the angle.
     length_deg: Option<f64>,
     /// Length of the arc; instead of the angle.
     length_mm: Option<f64>,
-    /// Depth of the floor.
+    /// Depth of the floor; needed without a profile.
     depth_um: Option<f64>,
-    /// Slope of the edges; 90 without it.
+    /// Slope of the edges.
+    #[schemars(extend("default" = EDGE_SLOPE_DEG))]
     edge_slope_deg: Option<f64>,
     /// File of a measured trace or topography, instead of length and depth.
     profile: Option<String>,
 }
 
 /// The body that has a defect or waves.
-#[derive(JsonSchema, Deserialize, Default, Clone, Copy, PartialEq)]
+#[derive(JsonSchema, Serialize, Deserialize, Default, Clone, Copy, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Body {
     #[default]
@@ -85,7 +90,7 @@ impl DefectTable {
                     .depth_um
                     .ok_or(TableFault::Neither { first: "defect.depth_um", second: "defect.profile" })?
                     / 1e6,
-                edge_slope: self.edge_slope_deg.unwrap_or(90.0).to_radians(),
+                edge_slope: self.edge_slope_deg.unwrap_or(EDGE_SLOPE_DEG).to_radians(),
             },
         };
         Ok(Defect { on, angle, shape })

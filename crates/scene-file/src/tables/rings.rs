@@ -19,31 +19,42 @@ pub(crate) struct ShaftTable {
     /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
-    /// Load, x and y, of a ring with mass only; a third number is along z.
+    /// Load, x and y; a third number is along z. This, mass, damping and stiffness of a ring whose motion is internal
+    /// only.
+    #[schemars(extend("default" = [0.0, 0.0]))]
     load_n: Option<Vector>,
-    /// Mass; 3.2638 without it.
+    /// Its mass.
+    #[schemars(extend("default" = Ring::default_shaft().mass))]
     mass_kg: Option<f64>,
-    /// Damping to the ground; 1376.8 without it.
+    /// Damping to the ground.
+    #[schemars(extend("default" = Ring::default_shaft().damping))]
     damping_n_s_m: Option<f64>,
-    /// Stiffness to the ground; 0 without it.
+    /// Stiffness to the ground.
+    #[schemars(extend("default" = Ring::default_shaft().stiffness))]
     stiffness_n_m: Option<f64>,
-    /// Force of a preload spring along the axis, in the sense of the contact angle; 0 without it. This and the next two
-    /// with 3 or 5 degrees of freedom only.
+    /// Force of a preload spring along the axis, in the sense of the contact angle; this and what is axial with 3 or 5
+    /// degrees of freedom only.
+    #[schemars(extend("default" = 0.0))]
     preload_n: Option<f64>,
     /// Damping to the ground along the axis; damping_n_s_m without it.
     axial_damping_n_s_m: Option<f64>,
     /// Stiffness to the ground along the axis; stiffness_n_m without it.
     axial_stiffness_n_m: Option<f64>,
-    /// Moment about x and y; [0, 0] without it. This and the next four with 5 degrees of freedom only.
+    /// Moment about x and y; this, tilt and moments of inertia with 5 degrees of freedom only.
+    #[schemars(extend("default" = [0.0, 0.0]))]
     #[serde(default, deserialize_with = "pair")]
     load_moment_n_m: Option<[f64; 2]>,
-    /// Moment of inertia about x or y; 5e-3 without it.
+    /// Moment of inertia about x or y; what holds without it is assumed.
+    #[schemars(extend("default" = TiltSupport::ASSUMED.transverse_inertia))]
     transverse_inertia_kg_m2: Option<f64>,
-    /// Moment of inertia about the axis; 3e-3 without it.
+    /// Moment of inertia about the axis; what holds without it is assumed.
+    #[schemars(extend("default" = TiltSupport::ASSUMED.polar_inertia))]
     polar_inertia_kg_m2: Option<f64>,
-    /// Damping of tilt to the ground; 0.5 without it.
+    /// Damping of tilt to the ground; what holds without it is assumed.
+    #[schemars(extend("default" = TiltSupport::ASSUMED.damping))]
     tilt_damping_n_m_s: Option<f64>,
-    /// Stiffness of tilt to the ground; 0 without it.
+    /// Stiffness of tilt to the ground.
+    #[schemars(extend("default" = TiltSupport::ASSUMED.stiffness))]
     tilt_stiffness_n_m_rad: Option<f64>,
 }
 
@@ -58,16 +69,22 @@ pub(crate) struct HousingTable {
     /// Its angle at the start.
     #[serde(default)]
     pub(super) initial_angle_deg: f64,
-    /// Load, x and y, of a ring with mass only; a third number is along z.
+    /// Load, x and y; a third number is along z. This, mass, damping and stiffness of a ring whose motion is internal
+    /// only.
+    #[schemars(extend("default" = [0.0, 0.0]))]
     load_n: Option<Vector>,
-    /// Mass; 6.638 without it.
+    /// Its mass.
+    #[schemars(extend("default" = Ring::default_housing().mass))]
     mass_kg: Option<f64>,
-    /// Damping to the ground; 2210.7 without it.
+    /// Damping to the ground.
+    #[schemars(extend("default" = Ring::default_housing().damping))]
     damping_n_s_m: Option<f64>,
-    /// Stiffness to the ground; 1.51056e7 without it.
+    /// Stiffness to the ground.
+    #[schemars(extend("default" = Ring::default_housing().stiffness))]
     stiffness_n_m: Option<f64>,
-    /// Force of a preload spring along the axis, in the sense of the contact angle; 0 without it. This and the next two
-    /// with 3 or 5 degrees of freedom only.
+    /// Force of a preload spring along the axis, in the sense of the contact angle; this and what is axial with 3 or 5
+    /// degrees of freedom only.
+    #[schemars(extend("default" = 0.0))]
     preload_n: Option<f64>,
     /// Damping to the ground along the axis; damping_n_s_m without it.
     axial_damping_n_s_m: Option<f64>,
@@ -168,9 +185,10 @@ impl RingKeys {
 pub(crate) struct SensorTable {
     /// Name for descriptions.
     name: String,
-    /// Direction in which it measures, counter-clockwise from +x; 90 without it.
+    /// Direction in which it measures, counter-clockwise from +x.
+    #[schemars(extend("default" = Sensor::default().direction.to_degrees()))]
     direction_deg: Option<f64>,
-    /// The same as a vector along x, y and z, of any length; instead of the angle.
+    /// Direction in which it measures, a vector along x, y and z of any length; instead of the angle.
     #[serde(deserialize_with = "triple")]
     direction: Option<[f64; 3]>,
     /// Its mass.
@@ -181,7 +199,8 @@ pub(crate) struct SensorTable {
     damping_n_s_m: f64,
     /// Modes of the structure between the outer ring and it.
     mode: Vec<SensorModeTable>,
-    /// File of a measured frequency or impulse response, to which `brinell` fits the modes.
+    /// File of a measured frequency or impulse response, to which `brinell` fits the modes; instead of
+    /// them.
     response: Option<String>,
 }
 
@@ -195,7 +214,7 @@ pub(crate) struct SensorModeTable {
     damping_ratio: f64,
     /// Its participation factor times its shape where the sensor sits; those of all modes add up to 1.
     gain: f64,
-    /// Gain of its velocity times its angular frequency; 0 unless points of the structure swing out of phase.
+    /// Gain of its velocity times its angular frequency; not 0 where points of the structure swing out of phase.
     #[serde(default)]
     quadrature_gain: f64,
 }

@@ -13,7 +13,7 @@ pub(crate) struct WavinessTable {
     /// The body that has them.
     #[serde(default)]
     on: Body,
-    /// Which element, from 1.
+    /// Which element, from 1; waves on an element need it.
     element: Option<i64>,
     /// Waves in one turn around the body.
     order: u32,
