@@ -1,4 +1,4 @@
-//! Options of commands, but for those that stand with their command: of `contact`, `size` and `sweep`.
+//! Options of commands. Those of `contact`, `size` and `sweep` stand with their command.
 
 use std::env;
 use std::path::PathBuf;

@@ -95,7 +95,7 @@ const HZ: f64 = 1.0 / TAU;
 macro_rules! of_keys {
     ($($(#[$doc:meta])* $name:ident: $quantity:expr, $key:expr, $per_si:expr, $low:expr, $high:expr;)*) => {
         $($(#[$doc])* pub const $name: Quantity = quantity($quantity, $key, $per_si, $low, $high);)*
-        /// Those of one key in one unit, but for those of rings.
+        /// Those of one key in one unit; those of rings are in [`SHAFT`] and [`HOUSING`].
         pub static OF_KEYS: &[&Quantity] = &[$(&$name),*];
     };
 }
