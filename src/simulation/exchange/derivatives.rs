@@ -59,6 +59,21 @@ impl Simulation {
         Ok(())
     }
 
+    /// What a change of each of `knowns` adds to the sum of `unknowns` weighted by `seed`, as
+    /// [`adjoint_derivative`](Self::adjoint_derivative).
+    ///
+    /// # Errors
+    /// As [`exchange_derivative`](Self::exchange_derivative).
+    pub fn exchange_adjoint(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        self.left_product(Self::exchange_derivative, [unknowns, knowns], seed, values)
+    }
+
     fn not_exchanged(&self, reference: u32, unknown: bool) -> SimulationError {
         let found = self.exchange_variables().into_iter().find(|variable| variable.reference == reference);
         match found {

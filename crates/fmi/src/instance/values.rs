@@ -109,10 +109,9 @@ impl Instance {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), Failure> {
-        if self.exchange && self.mode != Mode::Initialization {
-            return Ok(self.simulation.exchange_derivative(unknowns, knowns, seed, values)?);
-        }
-        Ok(self.simulation.directional_derivative(unknowns, knowns, seed, values)?)
+        let product =
+            if self.is_integrated() { Simulation::exchange_derivative } else { Simulation::directional_derivative };
+        Ok(product(&mut self.simulation, unknowns, knowns, seed, values)?)
     }
 
     /// The same from the left.
@@ -123,15 +122,13 @@ impl Instance {
         seed: &[f64],
         values: &mut [f64],
     ) -> Result<(), Failure> {
-        if !self.exchange || self.mode == Mode::Initialization {
-            return Ok(self.simulation.adjoint_derivative(unknowns, knowns, seed, values)?);
-        }
-        let mut column = vec![0.0; unknowns.len()];
-        for (value, known) in values.iter_mut().zip(knowns) {
-            self.directional_derivative(unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
-            *value = column.iter().zip(seed).map(|(derivative, weight)| weight * derivative).sum();
-        }
-        Ok(())
+        let product = if self.is_integrated() { Simulation::exchange_adjoint } else { Simulation::adjoint_derivative };
+        Ok(product(&mut self.simulation, unknowns, knowns, seed, values)?)
+    }
+
+    /// Whether the host integrates the states, so that they are among the knowns.
+    fn is_integrated(&self) -> bool {
+        self.exchange && self.mode != Mode::Initialization
     }
 }
 

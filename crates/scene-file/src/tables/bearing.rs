@@ -57,16 +57,16 @@ pub(crate) struct BearingTable {
     conformity_inner: Option<f64>,
     /// The same of the outer ring.
     conformity_outer: Option<f64>,
-    /// What separates a raceway from an element pressed to the other, R_o − R_i − 2r; one of the four that say how
-    /// loose the bearing is.
+    /// What separates a raceway from an element pressed to the other, R_o − R_i − 2r. How loose the bearing is may be
+    /// said by internal_clearance_um, axial_clearance_um or contact_angle_deg instead.
     #[schemars(extend("default" = DEFAULT_CLEARANCE_UM))]
     radial_clearance_um: Option<f64>,
-    /// Radial internal clearance of catalogues (ISO 5753), twice the radial clearance; one of the four.
+    /// Radial internal clearance of catalogues (ISO 5753), twice radial_clearance_um, which it replaces.
     internal_clearance_um: Option<f64>,
-    /// Total axial play from stop to stop; one of the four. 3 or 5 degrees of freedom only.
+    /// Total axial play from stop to stop; replaces radial_clearance_um. 3 or 5 degrees of freedom only.
     axial_clearance_um: Option<f64>,
     /// Free contact angle of an angular contact bearing, positive where it takes pushes of the inner ring towards +z;
-    /// one of the four. 3 or 5 degrees of freedom only.
+    /// replaces radial_clearance_um. 3 or 5 degrees of freedom only.
     contact_angle_deg: Option<f64>,
     /// In how many directions the rings move: 2, along x and y; 3, and along z; 5, and they tilt about x and y. 3 and 5
     /// with balls only.
@@ -87,9 +87,9 @@ pub(crate) struct BearingTable {
     youngs_modulus_gpa: Option<f64>,
     /// Of rings and elements.
     poissons_ratio: Option<f64>,
-    /// Of the elements; without it that of element_mass_g, which is then needed.
+    /// Of the elements; that of element_mass_g where it is given instead.
     density_kg_m3: Option<f64>,
-    /// Mass of one element; computed from the density without it.
+    /// Mass of one element, in place of density_kg_m3.
     element_mass_g: Option<f64>,
     /// Hertz constant of the inner contact; computed without it. Balls only.
     hertz_inner_n_m1_5: Option<f64>,
@@ -281,13 +281,12 @@ impl BearingTable {
     }
 
     fn density(&self, element: &RollingElement, diameter_mm: f64) -> Result<f64, TableFault> {
-        match (self.density_kg_m3, self.element_mass_g) {
-            (Some(density), _) => Ok(density),
-            (None, Some(mass)) => Ok(mass / 1e3 / element.volume(diameter_mm / 1e3)),
-            (None, None) => {
-                Err(TableFault::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
-            }
-        }
+        const DENSITY: &str = "bearing.density_kg_m3";
+        const MASS: &str = "bearing.element_mass_g";
+        only_one(&[(DENSITY, self.density_kg_m3.is_some()), (MASS, self.element_mass_g.is_some())])?;
+        let of_mass = |mass: f64| mass / 1e3 / element.volume(diameter_mm / 1e3);
+        let density = self.density_kg_m3.or_else(|| self.element_mass_g.map(of_mass));
+        density.ok_or(TableFault::Neither { first: DENSITY, second: MASS })
     }
 }
 

@@ -28,6 +28,10 @@ use crate::simulation::interface::{
 };
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
+/// Fills values of unknowns from knowns and a seed of theirs, in this order.
+pub(in crate::simulation) type Product =
+    fn(&mut Simulation, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), SimulationError>;
+
 impl Simulation {
     /// Derivatives by time of real outputs at the present time; of order 1.
     ///
@@ -147,9 +151,21 @@ impl Simulation {
                 return Err(out_of_range(variable, weight, f64::MIN, f64::MAX).into());
             }
         }
+        self.left_product(Self::directional_derivative, [unknowns, knowns], seed, values)
+    }
+
+    /// The product of `seed` from the left with the Jacobian of which `product` gives products from the right, by a
+    /// column each.
+    pub(in crate::simulation) fn left_product(
+        &mut self,
+        product: Product,
+        [unknowns, knowns]: [&[u32]; 2],
+        seed: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), SimulationError> {
         let mut column = vec![0.0; unknowns.len()];
         for (value, known) in values.iter_mut().zip(knowns) {
-            self.directional_derivative(unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
+            product(self, unknowns, std::slice::from_ref(known), &[1.0], &mut column)?;
             *value = column.iter().zip(seed).map(|(derivative, weight)| weight * derivative).sum();
         }
         Ok(())
