@@ -58,6 +58,13 @@ impl Quantity {
         Limits { low: self.low, high: self.high }
     }
 
+    /// The ends of what it may be, in SI units.
+    pub fn si_limits(&self) -> [f64; 2] {
+        [self.low, self.high].map(|bound| match bound {
+            Inclusive(limit) | Exclusive(limit) => limit / self.per_si,
+        })
+    }
+
     /// Checks a value of a key in the key's unit, as it stands in the file.
     pub fn check_written(&self, key: &'static str, value: f64) -> Result<(), SceneError> {
         let limits = self.limits();
@@ -162,8 +169,8 @@ of_keys! {
     WAVINESS_ANGLE: "angle of a crest of waviness", "waviness.angle_deg", DEG, Inclusive(-36e3), Inclusive(36e3);
     LOAD_MOMENT: "moment on the shaft", "shaft.load_moment_n_m", 1.0, Inclusive(-1e9), Inclusive(1e9);
     TRANSVERSE_INERTIA: "transverse inertia of the shaft",
-        "shaft.transverse_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9);
-    POLAR_INERTIA: "polar inertia of the shaft", "shaft.polar_inertia_kg_m2", 1.0, Exclusive(0.0), Inclusive(1e9);
+        "shaft.transverse_inertia_kg_m2", 1.0, Inclusive(1e-12), Inclusive(1e9);
+    POLAR_INERTIA: "polar inertia of the shaft", "shaft.polar_inertia_kg_m2", 1.0, Inclusive(1e-12), Inclusive(1e9);
     TILT_DAMPING: "tilt damping of the shaft", "shaft.tilt_damping_n_m_s", 1.0, Inclusive(0.0), Inclusive(1e12);
     TILT_STIFFNESS: "tilt stiffness of the shaft", "shaft.tilt_stiffness_n_m_rad", 1.0, Inclusive(0.0), Inclusive(1e15);
     /// 10 kHz are 600 000 rev/min: a steel ring of any size bursts before.
@@ -217,49 +224,31 @@ pub const SPIN_SLIP: Quantity =
     quantity("slip of the elements' spin", "element.spin_slip", 1.0, Inclusive(-1.0), Inclusive(1.0));
 pub const SPALL_LENGTH: Quantity =
     quantity("spall length, in mm", "defect.length_deg or defect.length_mm", 1e3, Exclusive(0.0), Inclusive(1e6));
-/// Limits are those that a host finds in the model description: what a scene may say a host may set.
-pub static SHAFT: RingQuantities = RingQuantities {
-    load: quantity("load on the shaft", "shaft.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
-    mass: quantity("shaft mass", "shaft.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
-    damping: quantity("shaft damping", "shaft.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
-    stiffness: quantity("shaft stiffness", "shaft.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
-    preload: quantity("preload of the shaft", "shaft.preload_n", 1.0, Inclusive(0.0), Inclusive(1e9)),
-    axial_damping: quantity(
-        "axial damping of the shaft",
-        "shaft.axial_damping_n_s_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e12),
-    ),
-    axial_stiffness: quantity(
-        "axial stiffness of the shaft",
-        "shaft.axial_stiffness_n_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e15),
-    ),
-};
-pub static HOUSING: RingQuantities = RingQuantities {
-    load: quantity("load on the housing", "housing.load_n", 1.0, Inclusive(-1e9), Inclusive(1e9)),
-    mass: quantity("housing mass", "housing.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9)),
-    damping: quantity("housing damping", "housing.damping_n_s_m", 1.0, Inclusive(0.0), Inclusive(1e12)),
-    stiffness: quantity("housing stiffness", "housing.stiffness_n_m", 1.0, Inclusive(0.0), Inclusive(1e15)),
-    preload: quantity("preload of the housing", "housing.preload_n", 1.0, Inclusive(0.0), Inclusive(1e9)),
-    axial_damping: quantity(
-        "axial damping of the housing",
-        "housing.axial_damping_n_s_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e12),
-    ),
-    axial_stiffness: quantity(
-        "axial stiffness of the housing",
-        "housing.axial_stiffness_n_m",
-        1.0,
-        Inclusive(0.0),
-        Inclusive(1e15),
-    ),
-};
+/// Those of the ring of a name.
+macro_rules! of_ring {
+    ($ring:literal) => {
+        RingQuantities {
+            load: of_ring!(concat!("load on the ", $ring), $ring, ".load_n", -1e9, 1e9),
+            mass: of_ring!(concat!($ring, " mass"), $ring, ".mass_kg", 1e-6, 1e9),
+            damping: of_ring!(concat!($ring, " damping"), $ring, ".damping_n_s_m", 0.0, 1e12),
+            stiffness: of_ring!(concat!($ring, " stiffness"), $ring, ".stiffness_n_m", 0.0, 1e15),
+            preload: of_ring!(concat!("preload of the ", $ring), $ring, ".preload_n", 0.0, 1e9),
+            axial_damping: of_ring!(concat!("axial damping of the ", $ring), $ring, ".axial_damping_n_s_m", 0.0, 1e12),
+            axial_stiffness: of_ring!(
+                concat!("axial stiffness of the ", $ring),
+                $ring,
+                ".axial_stiffness_n_m",
+                0.0,
+                1e15
+            ),
+        }
+    };
+    ($quantity:expr, $ring:literal, $key:literal, $low:expr, $high:expr) => {
+        quantity($quantity, concat!($ring, $key), 1.0, Inclusive($low), Inclusive($high))
+    };
+}
+pub static SHAFT: RingQuantities = of_ring!("shaft");
+pub static HOUSING: RingQuantities = of_ring!("housing");
 pub const SENSOR_COUNT: Quantity =
     quantity("number of sensors", "[[sensor]]", 1.0, Inclusive(1.0), Inclusive(MOST_SENSORS as f64));
 pub const SENSOR_ELEVATION: Quantity =

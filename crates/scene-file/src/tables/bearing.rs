@@ -1,6 +1,6 @@
 //! The table `[bearing]`: dimensions and material, or a catalogue's name instead of them.
 
-use super::diameters::Diameters;
+use super::diameters;
 use super::faults::{Faults, TableFault, only_one};
 use crate::catalogue::{CatalogueBearing, NotInCatalogue, catalogued};
 use brinell::scene::quantity::ELEMENT_COUNT;
@@ -87,9 +87,9 @@ pub(crate) struct BearingTable {
     youngs_modulus_gpa: Option<f64>,
     /// Of rings and elements.
     poissons_ratio: Option<f64>,
-    /// Of the elements; that of element_mass_g where it is given instead.
+    /// Of the elements; of no effect beside element_mass_g.
     density_kg_m3: Option<f64>,
-    /// Mass of one element, in place of density_kg_m3.
+    /// Mass of one element; computed from the density without it.
     element_mass_g: Option<f64>,
     /// Hertz constant of the inner contact; computed without it. Balls only.
     hertz_inner_n_m1_5: Option<f64>,
@@ -200,12 +200,8 @@ impl BearingTable {
             outer_compliance: keys.outer_compliance_m_n,
             element_inertia: keys.element_inertia,
         };
-        let diameters = Diameters {
-            offsets_um: keys.element_diameter_offsets_um,
-            rms_um: keys.element_diameter_rms_um,
-            seed: keys.element_diameter_seed,
-        };
-        diameters.put_into(&mut bearing)?;
+        let drawn = (keys.element_diameter_rms_um, keys.element_diameter_seed);
+        diameters::put_into(&mut bearing, keys.element_diameter_offsets_um, drawn.0, drawn.1)?;
         clearance.put_into(&mut bearing)?;
         Ok(bearing)
     }
@@ -283,7 +279,6 @@ impl BearingTable {
     fn density(&self, element: &RollingElement, diameter_mm: f64) -> Result<f64, TableFault> {
         const DENSITY: &str = "bearing.density_kg_m3";
         const MASS: &str = "bearing.element_mass_g";
-        only_one(&[(DENSITY, self.density_kg_m3.is_some()), (MASS, self.element_mass_g.is_some())])?;
         let of_mass = |mass: f64| mass / 1e3 / element.volume(diameter_mm / 1e3);
         let density = self.density_kg_m3.or_else(|| self.element_mass_g.map(of_mass));
         density.ok_or(TableFault::Neither { first: DENSITY, second: MASS })

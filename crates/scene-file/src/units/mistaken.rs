@@ -65,24 +65,15 @@ impl fmt::Display for UnitQuestion {
     }
 }
 
-/// What was probably meant by a value.
-pub(super) struct Meant {
-    /// In the key's unit.
-    pub(super) value: f64,
-    /// The key's unit.
-    pub(super) unit: &'static str,
-    /// The unit in which it was probably given.
-    pub(super) given: &'static str,
-}
-
-/// What was meant by the `value` of a key if that has a `usual` size in another unit; `None` for a value that is usual
-/// as it stands, that is 0, or that no unit makes usual.
-pub(super) fn meant(key: &str, value: f64, usual: [f64; 2]) -> Option<Meant> {
+/// What was meant by the `value` of a key if that has a `usual` size in another unit: in the key's unit, that unit, and
+/// the one in which it was probably given. `None` for a value that is usual as it stands, that is 0, or that no unit
+/// makes usual.
+pub(super) fn meant(key: &str, value: f64, usual: [f64; 2]) -> Option<(f64, &'static str, &'static str)> {
     let fits = |value: f64| (usual[0]..=usual[1]).contains(&value.abs());
     let (_, unit, others) = MISTAKEN.iter().chain([&SHARES]).find(|(ending, ..)| key.ends_with(ending))?;
     if value == 0.0 || !value.is_finite() || fits(value) {
         return None;
     }
     let (factor, given) = others.iter().find(|(factor, _)| fits(value * factor))?;
-    Some(Meant { value: shown(value * factor), unit, given })
+    Some((shown(value * factor), unit, given))
 }

@@ -1,7 +1,7 @@
 //! Which sizes of values are usual, by practice or by the bearing's own dimensions: what is far off and would be usual
 //! in another unit is asked about. Nothing is refused for it.
 
-use super::mistaken::{Meant, UnitQuestion, meant};
+use super::mistaken::{UnitQuestion, meant};
 use crate::catalogue::{Inside, catalogued};
 use brinell::scene::Bearing;
 use std::f64::consts::PI;
@@ -251,7 +251,7 @@ impl Dimensions {
             let key = usual.keys.iter().find(|known| **known == key)?;
             Some((*key, (usual.range)(self)?, usual.source))
         })?;
-        let Meant { value: meant, unit, given } = meant(key, value, usual)?;
+        let (meant, unit, given) = meant(key, value, usual)?;
         Some(UnitQuestion { key, value, meant, unit, given, usual, source })
     }
 }

@@ -5,6 +5,7 @@
 
 use super::builder::{Builder, Limited};
 use super::variables::{Causality, Kind, Unit, Variability};
+use crate::scene::quantity::{RECORDER_RATE, VISCOSITY};
 use crate::scene::{DefectShape, RecorderFilter};
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q};
 
@@ -20,7 +21,7 @@ impl Builder<'_> {
                 "Viscosity of the oil at the contacts' inlets",
                 Q::Parameter(Parameter::FilmViscosity),
                 Unit::PascalSecond,
-                Limited { start: film.viscosity, min: 1e-4, max: 10.0, nominal: 0.01 },
+                Limited::of(&VISCOSITY, film.viscosity, 0.01),
             );
         }
         for (k, sensor) in scene.sensors.iter().enumerate() {
@@ -40,7 +41,7 @@ impl Builder<'_> {
                 "Rows of the recording per second",
                 Q::Parameter(Parameter::RecorderRate),
                 Unit::Hertz,
-                Limited { start: recorder.rate, min, max: 1e7, nominal: 1e4 },
+                Limited { min, ..Limited::of(&RECORDER_RATE, recorder.rate, 1e4) },
             );
         }
         let seed = scene.bearing.drawn_diameters.map(|drawn| drawn.seed);

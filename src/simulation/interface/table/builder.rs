@@ -1,6 +1,7 @@
 //! How a row of the variable table is added, and what rows have in common.
 
 use super::variables::{Causality, Kind, Unit, Variability, Variable};
+use crate::scene::quantity;
 use crate::scene::{ContactLaw, Motion, RepeatedInputs, Ring, Scene};
 use crate::simulation::interface::quantity::{Quantity, RingName};
 use crate::surface::Surface;
@@ -31,6 +32,14 @@ pub(super) struct Limited {
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) nominal: f64,
+}
+
+impl Limited {
+    /// What a scene may say a host may set.
+    pub(super) fn of(quantity: &quantity::Quantity, start: f64, nominal: f64) -> Self {
+        let [min, max] = quantity.si_limits();
+        Self { start, min, max, nominal }
+    }
 }
 
 impl<'a> Builder<'a> {

@@ -2,12 +2,9 @@
 
 use super::builder::{Builder, CONTACT_LAWS, Limited, RINGS};
 use super::variables::{Causality, Kind, Unit, Variability};
+use crate::scene::quantity;
 use crate::scene::{Damping, DefectOn, DegreesOfFreedom, Motion, WavyBody};
 use crate::simulation::interface::quantity::{Parameter, Quantity as Q, RingName};
-
-/// Largest contact angles of a scene (rad).
-const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
-const STEEPEST_OPERATING: f64 = 7.0 * std::f64::consts::PI / 18.0;
 
 impl Builder<'_> {
     pub(super) fn parameters(&mut self) {
@@ -26,14 +23,14 @@ impl Builder<'_> {
             "Lag of the cage behind pure rolling",
             Q::Parameter(Parameter::CageSlip),
             Unit::One,
-            Limited { start: scene.cage.slip, min: 0.0, max: 1.0, nominal: 0.01 },
+            Limited::of(&quantity::CAGE_SLIP, scene.cage.slip, 0.01),
         );
         self.parameter(
             "cage.initial_angle",
             "Angle of element 1 at the start, counter-clockwise from +x",
             Q::Parameter(Parameter::CageInitialAngle),
             Unit::Radian,
-            Limited { start: scene.cage.initial_angle, min: -1e3, max: 1e3, nominal: 1.0 },
+            Limited::of(&quantity::INITIAL_ANGLE, scene.cage.initial_angle, 1.0),
         );
         self.defect_angles();
         self.turning_parameters();
@@ -47,7 +44,7 @@ impl Builder<'_> {
             "Relative tolerance of the time integration",
             Q::Parameter(Parameter::Tolerance),
             Unit::One,
-            Limited { start: scene.tolerance, min: 1e-12, max: 0.1, nominal: 1e-5 },
+            Limited::of(&quantity::TOLERANCE, scene.tolerance, 1e-5),
         );
         if scene.recorder.is_some() {
             self.push(
@@ -81,7 +78,7 @@ impl Builder<'_> {
                 "Free contact angle, positive where the bearing takes pushes of the inner ring towards +z",
                 Q::Parameter(Parameter::ContactAngle),
                 Unit::Radian,
-                Limited { start, min: -STEEPEST, max: STEEPEST, nominal: 0.1 },
+                Limited::of(&quantity::CONTACT_ANGLE, start, 0.1),
             ),
         }
         if self.in_space() {
@@ -98,10 +95,8 @@ impl Builder<'_> {
             Q::Parameter(Parameter::OperatingAngle),
             Unit::Radian,
             Limited {
-                start: bearing.given_operating_angle().unwrap_or(0.0),
                 min: 0.0,
-                max: STEEPEST_OPERATING,
-                nominal: 0.1,
+                ..Limited::of(&quantity::OPERATING_ANGLE, bearing.given_operating_angle().unwrap_or(0.0), 0.1)
             },
         );
         self.parameter(
@@ -109,7 +104,7 @@ impl Builder<'_> {
             "Damping of balls across the grooves, Hunt-Crossley constant",
             Q::Parameter(Parameter::AcrossDamping),
             Unit::SecondPerMetre,
-            Limited { start: contact.damping_across(), min: 0.0, max: 1e3, nominal: 0.5 },
+            Limited::of(&quantity::ACROSS_DAMPING, contact.damping_across(), 0.5),
         );
     }
 
@@ -132,7 +127,7 @@ impl Builder<'_> {
                 },
                 Q::Parameter(Parameter::DefectAngle(index)),
                 Unit::Radian,
-                Limited { start: defect.angle, min: -1e3, max: 1e3, nominal: 1.0 },
+                Limited::of(&quantity::DEFECT_ANGLE, defect.angle, 1.0),
             );
         }
     }
@@ -140,17 +135,18 @@ impl Builder<'_> {
     /// Where rings that have a defect or turn begin, and how much spin is lost.
     fn turning_parameters(&mut self) {
         let scene = self.scene;
-        let mut angle = |name: &str, what: &str, ring, start| {
-            let (quantity, unit) = (Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian);
-            self.parameter(name, what, quantity, unit, Limited { start, min: -1e3, max: 1e3, nominal: 1.0 });
+        let mut angle = |name: &str, what: &str, ring, limited| {
+            self.parameter(name, what, Q::Parameter(Parameter::RingInitialAngle(ring)), Unit::Radian, limited);
         };
         if scene.marks_inner_ring() {
             let what = "Angle of the inner ring at the start, counter-clockwise";
-            angle("shaft.initial_angle", what, RingName::Shaft, scene.shaft_initial_angle);
+            let limited = Limited::of(&quantity::SHAFT_INITIAL_ANGLE, scene.shaft_initial_angle, 1.0);
+            angle("shaft.initial_angle", what, RingName::Shaft, limited);
         }
         if scene.housing_speed.is_some() {
             let what = "Angle of the outer ring at the start, counter-clockwise";
-            angle("housing.initial_angle", what, RingName::Housing, scene.housing_initial_angle);
+            let limited = Limited::of(&quantity::HOUSING_INITIAL_ANGLE, scene.housing_initial_angle, 1.0);
+            angle("housing.initial_angle", what, RingName::Housing, limited);
         }
         let spins = scene.defects.iter().any(|defect| matches!(defect.on, DefectOn::Element { .. }))
             || scene.waviness.iter().any(|waves| matches!(waves.on, WavyBody::Element(_)));
@@ -160,70 +156,80 @@ impl Builder<'_> {
                 "Lag of the elements' spin behind pure rolling",
                 Q::Parameter(Parameter::SpinSlip),
                 Unit::One,
-                Limited { start: scene.cage.spin_slip, min: -1.0, max: 1.0, nominal: 0.01 },
+                Limited::of(&quantity::SPIN_SLIP, scene.cage.spin_slip, 0.01),
             );
         }
     }
 
     fn damping(&mut self) {
-        let (damping, unit, what, nominal) = match self.scene.contact.damping {
-            Damping::HuntCrossley(chi) => (chi, Unit::SecondPerMetre, "Hunt-Crossley constant chi", 0.5),
-            Damping::Proportional(tau) => (tau, Unit::Second, "time constant tau of proportional damping", 1e-6),
+        let (limited, unit, what) = match self.scene.contact.damping {
+            Damping::HuntCrossley(chi) => {
+                (Limited::of(&quantity::DAMPING_CHI, chi, 0.5), Unit::SecondPerMetre, "Hunt-Crossley constant chi")
+            }
+            Damping::Proportional(tau) => (
+                Limited::of(&quantity::DAMPING_TAU, tau, 1e-6),
+                Unit::Second,
+                "time constant tau of proportional damping",
+            ),
         };
         self.parameter(
             "contact.damping",
             &format!("Contact damping: {what}"),
             Q::Parameter(Parameter::ContactDamping),
             unit,
-            Limited { start: damping, min: 0.0, max: 1e6, nominal },
+            limited,
         );
     }
 
     fn ring_parameters(&mut self, ring: RingName) {
         let ([name, what], parts) = (ring.names(), self.ring(ring));
         let axial = parts.axial;
+        let limits = match ring {
+            RingName::Shaft => &quantity::SHAFT,
+            RingName::Housing => &quantity::HOUSING,
+        };
         let all = [
             (
                 "mass",
                 ["Mass of the ", what, " and what moves with it"],
                 Parameter::RingMass(ring),
                 Unit::Kilogram,
-                Limited { start: parts.mass, min: 1e-6, max: 1e9, nominal: 1.0 },
+                Limited::of(&limits.mass, parts.mass, 1.0),
             ),
             (
                 "damping",
                 ["Viscous damping of the ", what, " to ground"],
                 Parameter::RingDamping(ring),
                 Unit::NewtonSecondPerMetre,
-                Limited { start: parts.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
+                Limited::of(&limits.damping, parts.damping, 1000.0),
             ),
             (
                 "stiffness",
                 ["Support stiffness of the ", what, " to ground"],
                 Parameter::RingStiffness(ring),
                 Unit::NewtonPerMetre,
-                Limited { start: parts.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
+                Limited::of(&limits.stiffness, parts.stiffness, 1e7),
             ),
             (
                 "axial_damping",
                 ["Viscous damping along z of the ", what, ""],
                 Parameter::AxialDamping(ring),
                 Unit::NewtonSecondPerMetre,
-                Limited { start: axial.damping, min: 0.0, max: 1e12, nominal: 1000.0 },
+                Limited::of(&limits.axial_damping, axial.damping, 1000.0),
             ),
             (
                 "axial_stiffness",
                 ["Support stiffness along z of the ", what, ""],
                 Parameter::AxialStiffness(ring),
                 Unit::NewtonPerMetre,
-                Limited { start: axial.stiffness, min: 0.0, max: 1e15, nominal: 1e7 },
+                Limited::of(&limits.axial_stiffness, axial.stiffness, 1e7),
             ),
             (
                 "preload",
                 ["Force of a preload spring, in the sense of the contact angle of the ", what, ""],
                 Parameter::Preload(ring),
                 Unit::Newton,
-                Limited { start: axial.preload, min: 0.0, max: 1e9, nominal: 100.0 },
+                Limited::of(&limits.preload, axial.preload, 100.0),
             ),
         ];
         for (key, text, parameter, unit, limited) in all.into_iter().take(if self.in_space() { 6 } else { 3 }) {
@@ -243,28 +249,28 @@ impl Builder<'_> {
                 "Moment of inertia about x or y",
                 Parameter::TransverseInertia,
                 Unit::KilogramSquareMetre,
-                Limited { start: of.transverse_inertia, min: 1e-12, max: 1e9, nominal: 1e-3 },
+                Limited::of(&quantity::TRANSVERSE_INERTIA, of.transverse_inertia, 1e-3),
             ),
             (
                 "polar_inertia",
                 "Moment of inertia about z",
                 Parameter::PolarInertia,
                 Unit::KilogramSquareMetre,
-                Limited { start: of.polar_inertia, min: 1e-12, max: 1e9, nominal: 1e-3 },
+                Limited::of(&quantity::POLAR_INERTIA, of.polar_inertia, 1e-3),
             ),
             (
                 "tilt_damping",
                 "Viscous damping of the tilt",
                 Parameter::TiltDamping,
                 Unit::NewtonMetreSecondPerRadian,
-                Limited { start: of.damping, min: 0.0, max: 1e12, nominal: 1.0 },
+                Limited::of(&quantity::TILT_DAMPING, of.damping, 1.0),
             ),
             (
                 "tilt_stiffness",
                 "Support stiffness of the tilt",
                 Parameter::TiltStiffness,
                 Unit::NewtonMetrePerRadian,
-                Limited { start: of.stiffness, min: 0.0, max: 1e15, nominal: 1e4 },
+                Limited::of(&quantity::TILT_STIFFNESS, of.stiffness, 1e4),
             ),
         ] {
             let text = [text, " of the inner ring and what moves with it"].concat();
