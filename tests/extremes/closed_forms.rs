@@ -6,7 +6,7 @@ use crate::support::Named;
 use crate::support::energy::{pushed, stored};
 use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::hertz_constant::HertzConstants;
-use brinell::geometry::kinematics::cage_ratio;
+use brinell::geometry::kinematics::Ratios;
 use brinell::scene::{Damping, Ring, Scene};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -36,7 +36,7 @@ pub fn load_0(kind: Kind, what: &'static str, damping: Damping) -> Row {
     scene.housing = Ring::fixed();
     scene.sensors.clear();
     scene.shaft.stiffness = 1e6;
-    let speed = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
+    let speed = scene.shaft_speed * Ratios::new(&scene.bearing, 0.0, 0.0).cage[0];
     let mass = scene.bearing.mass_of_element();
     let radius = scene.bearing.outer_raceway_radius() - scene.bearing.element_radius();
     let mut bearing = Named::started(scene);
@@ -62,7 +62,7 @@ pub fn speed_100_000_rev_min_without_inertia(kind: Kind) -> Row {
 
 fn turns_100_000_times_a_minute(what: &'static str, mut scene: Scene, limit: f64) -> Row {
     scene.shaft_speed = 100_000.0 / 60.0 * TAU;
-    let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
+    let omega = scene.shaft_speed * Ratios::new(&scene.bearing, 0.0, 0.0).cage[0];
     let dimensions = scene.bearing.clone();
     let mut bearing = Named::started(scene);
     let [got, expected] = bearing.pressed_outwards(&dimensions, omega);

@@ -3,7 +3,7 @@
 use crate::row::Row;
 use crate::scenes::Kind;
 use crate::support::Named;
-use brinell::geometry::kinematics::cage_ratio;
+use brinell::geometry::kinematics::Ratios;
 use std::f64::consts::TAU;
 
 pub fn communication_steps(kind: Kind) -> Row {
@@ -57,7 +57,7 @@ pub fn one_minute(kind: Kind) -> Row {
     let mut scene = kind.hosted();
     scene.bearing.element_count = 3;
     scene.shaft_speed = 25.0 * TAU;
-    let omega = scene.shaft_speed * cage_ratio(&scene.bearing, 0.0);
+    let omega = scene.shaft_speed * Ratios::new(&scene.bearing, 0.0, 0.0).cage[0];
     let mut bearing = Named::started_with(scene, &[("shaft.y", -2e-5)]);
     let start = bearing.get("cage.angle");
     let force = |b: &mut Named| (1..=3).map(|j| b.get(&format!("element[{j}].force.outer"))).fold(0.0, f64::max);

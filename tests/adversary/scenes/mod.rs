@@ -87,26 +87,12 @@ fn many_random_scenes_agree_with_the_oracle() {
 }
 
 #[test]
-#[ignore = "writes the random scenes' section of docs/evidence/stability.md from the lines of the long run"]
-fn write_the_section_of_random_scenes() {
+#[ignore = "writes the random scenes' tables on docs/evidence/stability.md from the lines of the long run"]
+fn write_the_tables_of_random_scenes() {
     let entries = judged_so_far();
     assert!(!entries.is_empty(), "{LINES} holds no scene: run the test above first");
-    let root = brinell_tests::root();
-    let (section, page) = (root.join("tests/adversary/scenes/scenes.md"), root.join("docs/evidence/stability.md"));
-    let head = include_str!("head.md");
-    let new = format!("{head}\n{}\n{}", Tally::new(&entries).markdown(), include_str!("mended.md"));
-    fs::write(&section, &new).unwrap();
-    let text = fs::read_to_string(&page).unwrap();
-    let title = head.lines().next().unwrap();
-    let from = text.find(title).unwrap_or(text.len());
-    let to = text[from..].match_indices("\n## ").next().map_or(text.len(), |(at, _)| from + at + 1);
-    fs::write(&page, format!("{}{new}{}", &text[..from], &text[to..])).unwrap();
-}
-
-#[test]
-fn the_page_holds_the_section() {
-    let page = std::fs::read_to_string(brinell_tests::root().join("docs/evidence/stability.md")).unwrap();
-    assert!(page.contains(include_str!("scenes.md")), "the page does not hold tests/adversary/scenes/scenes.md");
+    let table = Tally::new(&entries).markdown();
+    brinell_tests::page::write("docs/evidence/stability.md", [("random scenes", table)]);
 }
 
 /// The path that the simulation's elements follow over a scene's defect, at angles all around, is the brute-force
