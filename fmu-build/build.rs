@@ -18,7 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => Vec::new(),
     };
     if libraries.is_empty() && env::var_os("BRINELL_LIBRARIES").is_some() {
-        return Err("BRINELL_LIBRARIES names a folder without libraries; `cargo fmu libraries` fills one".into());
+        let message = "BRINELL_LIBRARIES names a folder without libraries; `cargo fmu dist --only-libraries` fills one";
+        return Err(message.into());
     }
     // Only a program that compiles the library needs to know where its source is.
     let source = if libraries.is_empty() { fs::canonicalize(&root)? } else { PathBuf::new() };

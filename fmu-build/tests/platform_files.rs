@@ -16,7 +16,7 @@ use fmu_build::platforms::{OLDEST_GLIBC, needed_glibc};
 use fmu_build::shared::{Project, Version};
 use object::{LittleEndian, Object, macho};
 
-/// How many functions of each version there are: those of co-simulation, and those that only refuse.
+/// How many functions of each version there are, for co-simulation and for model exchange.
 const FUNCTIONS: [(&str, usize); 2] = [("fmi2", 44), ("fmi3", 75)];
 
 fn libraries() -> &'static Library {
@@ -123,7 +123,7 @@ mod all_platforms {
 
     #[test]
     #[ignore = "compiles the library for all platforms"]
-    fn an_fmu_with_every_library_and_a_map_takes_less_than_6_megabytes() {
+    fn an_fmu_with_every_library_and_a_map_takes_less_than_9_megabytes() {
         let model = common::model("6205-epps");
         assert!(model.map.is_some());
         let bytes = fmu::pack(&model, libraries(), Version::Fmi2).unwrap();
@@ -131,7 +131,7 @@ mod all_platforms {
             println!("{line}");
         }
         println!("FMU: {} bytes", bytes.len());
-        assert!(bytes.len() < 6_000_000, "{} bytes", bytes.len());
+        assert!(bytes.len() < 9_000_000, "{} bytes", bytes.len());
         let file = common::folder("all-platforms").join("6205-epps.fmu");
         std::fs::write(&file, bytes).unwrap();
         fmu_build::commands::check::command(&Project::find(), &file, false).unwrap();

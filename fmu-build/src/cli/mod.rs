@@ -13,7 +13,7 @@ use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes,
 use crate::package::{Library, Model, Reference, fmu};
 use crate::shared::{Interface, Kind, Project, Version, talk};
 use crate::{paper, run, sweep};
-use options::{Build, Check, Demo, OverCageAngle, Run};
+use options::{Build, Check, Demo, Run};
 use shipped_options::{Catalogue, New, Paper, Scenes};
 
 /// Rolling bearings with a real surface defect as FMI co-simulation units.
@@ -56,9 +56,9 @@ pub enum Command {
     /// Unzips, validates, loads and steps an FMU
     Check(Check),
     /// Static stiffness, load distribution and critical load over the cage angle: CSV, figure and summary
-    Stiffness(OverCageAngle),
+    Stiffness(stiffness::OverCageAngle),
     /// Natural frequencies, damping ratios and mode shapes over the cage angle: JSON, figure and summary
-    Modes(OverCageAngle),
+    Modes(stiffness::OverCageAngle),
     /// Pressure of one ball on a raceway as measured, and the stresses below: JSON on standard output, CSV, figure
     Contact(contact::Contact),
     /// Length of a spall from recordings of one bearing, or why there is none: JSON on standard output, figures
@@ -104,19 +104,13 @@ impl Command {
             }
             Command::Sweep(options) => sweep::command(project, &options),
             Command::Check(options) => check::command(project, &options.fmu, options.json),
-            Command::Stiffness(options) => {
-                let folder = options.drawn.folder(project, "stiffness");
-                stiffness::command(project, &Model::read(&options.scene)?, options.options(), &folder)
-            }
-            Command::Modes(options) => {
-                let folder = options.drawn.folder(project, "modes");
-                modes::command(project, &Model::read(&options.scene)?, options.options(), &folder)
-            }
+            Command::Stiffness(options) => stiffness::command(project, &options),
+            Command::Modes(options) => modes::command(project, &options),
             Command::Contact(options) => contact::command(project, &options),
             Command::Size(options) => size::command(project, &options),
             Command::Demo(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
-                demo::command(project, &options.library.into(), &folder)
+                demo::command(project, &options.library.or_environment(), &folder)
             }
             Command::Paper(options) => {
                 let folder = options.drawn.folder(project, "paper");
@@ -163,7 +157,7 @@ fn build(project: &Project, options: Build) -> Result<()> {
     };
     // Scenes first: a typing error should not wait for a compiler.
     let models = options.scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
-    let library = Library::obtain(project, &options.library.into())?;
+    let library = Library::obtain(project, &options.library.or_environment())?;
     for line in library.describe() {
         println!("{line}");
     }

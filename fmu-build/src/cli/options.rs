@@ -1,20 +1,19 @@
-//! Options of commands. Those of `contact`, `size` and `sweep` stand with their command.
+//! Options of commands. Those of `contact`, `modes`, `size`, `stiffness` and `sweep` stand with their command.
 
-use std::env;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use brinell::scene::Experiment;
 use clap::Args;
 
-use crate::commands::{Asked, Spall, new_scene, stiffness};
+use crate::commands::{Asked, Spall, new_scene};
 use crate::package::{Model, library};
 use crate::run;
 use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Drawn, Grid, Kind, Names, Version, number, seed, whole};
+use crate::shared::{Grid, Kind, Names, Version, number, seed};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -42,7 +41,7 @@ pub struct Build {
     #[arg(long)]
     pub(super) reference: bool,
     #[command(flatten)]
-    pub(super) library: LibraryChoice,
+    pub(super) library: library::Choice,
 }
 
 /// Options of `run`.
@@ -163,33 +162,6 @@ pub struct Check {
     pub(super) json: bool,
 }
 
-/// Options of `stiffness` and `modes`, which sweep the cage angle.
-#[derive(Debug, Args)]
-pub struct OverCageAngle {
-    /// Scene file (TOML), or the name of a shipped scene; its cage stands still
-    pub(super) scene: PathBuf,
-    /// Load in newtons along the scene's load; `modes` takes a scene without load as well, and puts it on the shaft
-    /// and downwards, wherever that is held [default: the scene's]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    pub(super) load: Option<f64>,
-    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
-    /// carry are added, by `modes` also those at an edge of a defect and where modes change much
-    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
-    pub(super) points: Option<u32>,
-    /// Print the summary as JSON; files are named on standard error
-    #[arg(long)]
-    pub(super) json: bool,
-    #[command(flatten)]
-    pub(super) drawn: Drawn,
-}
-
-impl OverCageAngle {
-    pub(super) fn options(&self) -> stiffness::Options {
-        let points = self.points.map(|count| count as usize);
-        stiffness::Options { load: self.load, points, figure: !self.drawn.no_figure, json: self.json }
-    }
-}
-
 /// Options of `demo`.
 #[derive(Debug, Args)]
 pub struct Demo {
@@ -197,23 +169,5 @@ pub struct Demo {
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
     #[command(flatten)]
-    pub(super) library: LibraryChoice,
-}
-
-#[derive(Debug, Args)]
-pub struct LibraryChoice {
-    /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
-    #[arg(long, value_name = "PATH", conflicts_with = "platforms")]
-    pub(super) library: Option<PathBuf>,
-    /// Platforms to pack the library for: all, or a list of linux64, win64, darwin64, aarch64-linux
-    /// [default: all that this program holds; where it compiles them, this machine's]
-    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
-    pub(super) platforms: Vec<String>,
-}
-
-impl From<LibraryChoice> for library::Choice {
-    fn from(choice: LibraryChoice) -> Self {
-        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| choice.platforms.is_empty());
-        Self { file: choice.library.or_else(named), platforms: choice.platforms }
-    }
+    pub(super) library: library::Choice,
 }

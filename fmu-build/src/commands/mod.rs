@@ -13,6 +13,5 @@ mod size_report;
 pub mod stiffness;
 
 pub use contact::On;
-pub use stiffness::Options;
 
 pub(crate) use new_scene::{Asked, Spall};

@@ -1,18 +1,18 @@
 //! The command `modes`: natural frequencies, damping ratios and mode shapes of a scene over the cage angle, as JSON,
 //! figure and summary.
 
-use std::path::Path;
-
 use anyhow::{Result, bail};
 use brinell_analysis::modes::{Assembly, Hold, Kind, LineReport, ModesReport, loaded, sweep};
 
-use super::stiffness::{Options, enough_points};
+use super::stiffness::{OverCageAngle, enough_points};
 use crate::package::Model;
 use crate::shared::{Project, Python, contact_map, whole_file};
 
 /// The command: `<folder>/<scene>-modes.json` and, if wanted, a figure.
-pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
+    let model = Model::read(&options.scene)?;
     options.check()?;
+    let folder = options.drawn.folder(project, "modes");
     let scene = options.load.map_or_else(|| model.scene.clone(), |amount| loaded(&model.scene, amount));
     let map = contact_map::of(&scene, model.profile_texts(), project)?;
     let assembly = Assembly::new(&scene, model.profile_texts(), map.as_deref())?;
@@ -21,7 +21,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = assembly.defect().map_or(direction, |defect| defect.centre);
     let length = assembly.defect().map(|defect| defect.length);
-    let points = options.points.unwrap_or_else(|| enough_points(assembly.period(), length));
+    let points = options.points(|| enough_points(assembly.period(), length));
     let modes = sweep(&assembly, middle - 0.5 * assembly.period(), points)?;
     let report = ModesReport::new(scene.name.clone(), &assembly, middle, &modes);
     if report.held(Hold::Pressed)[1] == 0 {
@@ -40,7 +40,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     } else {
         print!("{}", summary(&report));
     }
-    if options.figure {
+    if !options.drawn.no_figure {
         let python = Python::prepare(project)?;
         options.tell(python.run("modes.py", [stem])?);
     }

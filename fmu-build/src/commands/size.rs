@@ -154,7 +154,7 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
     });
     bar.finish_and_clear();
     let report = report?;
-    eprintln!("{}", answer(&report));
+    eprintln!("{}: {}", found(&report), report.reason);
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
     let stems = write(&report, &options.drawn.folder(project, "size"))?;
@@ -187,11 +187,6 @@ fn read(options: &Size, speeds: &[ShaftSpeed], bearing: &Bearing) -> Result<Vec<
         Ok(recording.at_speed(found)?)
     });
     recordings.collect()
-}
-
-/// The answer in a line: which part, how long, how far to rely on it, why.
-fn answer(report: &Report) -> String {
-    format!("{}: {}", found(report), report.reason)
 }
 
 /// Which part, how long, how far to rely on it.

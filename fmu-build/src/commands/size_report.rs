@@ -65,6 +65,7 @@ fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &S
         comb("inner raceway (BPFI)", nominal.bpfi, &one.combs.inner),
         comb("rolling element (2 BSF)", 2.0 * nominal.bsf, &one.combs.element),
     ];
+    let events = events(one);
     json!({
         "name": one.name,
         "facts": format!(
@@ -78,8 +79,14 @@ fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &S
         "charts": [
             signal_spectrum(recording),
             envelope_spectrum(one, recording, scene),
-            passage(one, figure),
-            level(one, figure),
+            chart("Averaged passage: signal (unit of the recording)", TRAVEL, &figure.angle, &figure.signal, &events),
+            chart(
+                "Averaged passage: level of the high-frequency envelope (dB)",
+                TRAVEL,
+                &figure.angle,
+                &figure.level,
+                &events
+            ),
         ],
     })
 }
@@ -112,16 +119,6 @@ fn envelope_spectrum(one: &RecordingReport, recording: &Recording, scene: &Scene
 
 fn times(count: u32, name: &str) -> String {
     if count == 1 { name.to_owned() } else { format!("{count} × {name}") }
-}
-
-fn passage(one: &RecordingReport, figure: &Figure) -> Value {
-    let title = "Averaged passage: signal (unit of the recording)";
-    chart(title, TRAVEL, &figure.angle, &figure.signal, &events(one))
-}
-
-fn level(one: &RecordingReport, figure: &Figure) -> Value {
-    let title = "Averaged passage: level of the high-frequency envelope (dB)";
-    chart(title, TRAVEL, &figure.angle, &figure.level, &events(one))
 }
 
 fn events(one: &RecordingReport) -> Vec<(f64, String)> {

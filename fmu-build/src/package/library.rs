@@ -6,17 +6,21 @@ use std::sync::OnceLock;
 use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 
 use super::archive::{ArchiveError, Compressed};
 use crate::platforms::{OLDEST_GLIBC, Platform, compile, needed_glibc, toolchain};
 use crate::shared::{Project, shipped};
 
 /// What to pack: a file that is there, or for which platforms.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct Choice {
-    /// A compiled library for this platform.
+    /// Compiled model library to pack, instead of building it from source; so does the environment's BRINELL_LIBRARY
+    #[arg(long = "library", value_name = "PATH", conflicts_with = "platforms")]
     pub file: Option<PathBuf>,
-    /// Platforms by name; none stands for all that are inside this program, else for its own.
+    /// Platforms to pack the library for: all, or a list of linux64, win64, darwin64, aarch64-linux
+    /// [default: all that this program holds; where it compiles them, this machine's]
+    #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
     pub platforms: Vec<String>,
 }
 
@@ -35,6 +39,14 @@ pub struct Binary {
     pub bytes: Vec<u8>,
     /// The same for archives, made when the first of them asks: it takes longer than all else in an FMU.
     compressed: OnceLock<Compressed>,
+}
+
+impl Choice {
+    /// The same, and where nothing was chosen the file that the environment's BRINELL_LIBRARY names.
+    pub fn or_environment(self) -> Self {
+        let named = || env::var_os("BRINELL_LIBRARY").map(PathBuf::from).filter(|_| self.platforms.is_empty());
+        Self { file: self.file.or_else(named), platforms: self.platforms }
+    }
 }
 
 impl Library {

@@ -32,7 +32,7 @@ use signals::Signals;
 use spectra::{Acceleration, Spectra};
 use speed_profile::SpeedProfile;
 use table::{Column, Format};
-use wav::{Loudness, Wav};
+use wav::Wav;
 
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
@@ -102,7 +102,7 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     }
     if let (Some(wav), Some(recording), Some(recorder)) = (&options.wav, &done.recording, model.scene.recorder) {
         let path = folder.join(format!("{}.wav", model.scene.name));
-        let Loudness { largest, clipped } = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
+        let [largest, clipped] = wav.write(recording, &sensors(recording), recorder.rate, &path)?;
         println!("{}", path.display());
         note!("note: {} Hz, 1 is {} m/s2, the largest sample {largest:.3}", recorder.rate, wav.scale);
         if clipped > 0.0 {

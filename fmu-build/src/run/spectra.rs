@@ -1,6 +1,5 @@
 //! Spectra of a run: that of the acceleration's envelope, and its orders, each as CSV with what there is to mark.
 
-use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -33,16 +32,20 @@ pub(super) struct Spectra<'a> {
     profile: Option<&'a SpeedProfile>,
     /// What the spectra are of.
     acceleration: Acceleration,
-    /// Where the shaft has turned by equal angles, once somebody has asked.
-    angles: OnceCell<Option<EvenAngles>>,
-    /// Characteristic frequencies and the shaft's speed (Hz), likewise.
-    frequencies: OnceCell<Option<(Frequencies, f64)>>,
+    /// Where the shaft has turned by equal angles.
+    angles: Option<EvenAngles>,
+    /// Characteristic frequencies and the shaft's speed (Hz), at the mean speed where it changes; `None` where nothing
+    /// turns, or where two rings turn in a ratio that changes.
+    frequencies: Option<(Frequencies, f64)>,
 }
 
 impl<'a> Spectra<'a> {
     /// Those of an acceleration in a run of a scene.
     pub(super) fn new(scene: &'a Scene, profile: Option<&'a SpeedProfile>, acceleration: Acceleration) -> Self {
-        Self { scene, profile, acceleration, angles: OnceCell::new(), frequencies: OnceCell::new() }
+        let mut spectra = Self { scene, profile, acceleration, angles: None, frequencies: None };
+        spectra.angles = spectra.found_angles();
+        spectra.frequencies = spectra.found_frequencies();
+        spectra
     }
 
     /// Spectrum of the envelope as `<scene>-envelope.csv`, and beside it, as `.json`, band, width of a line and the
@@ -50,8 +53,8 @@ impl<'a> Spectra<'a> {
     /// changes frequencies are those at the mean speed.
     pub(super) fn write_envelope(&self, folder: &Path) -> Result<Option<PathBuf>> {
         let Acceleration { samples, rate } = &self.acceleration;
-        let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
-        let envelope = match self.angles().filter(|_| self.changes()) {
+        let Some((characteristic, speed)) = self.frequencies else { return Ok(None) };
+        let envelope = match self.angles.as_ref().filter(|_| self.changes()) {
             Some(angles) => EnvelopeSpectrum::of_changing_speed(samples, *rate, characteristic, angles),
             None if self.changes() => None,
             None => EnvelopeSpectrum::of(samples, *rate, characteristic, speed),
@@ -77,7 +80,7 @@ impl<'a> Spectra<'a> {
 
     /// Why there is no spectrum of the envelope, and how long a run would be enough.
     pub(super) fn too_short(&self) -> Option<String> {
-        let (characteristic, _) = self.frequencies()?;
+        let (characteristic, _) = self.frequencies?;
         let shortest = libm::ceil(100.0 * envelope_spectrum::FEWEST_PASSAGES / characteristic.bpfo) / 100.0;
         let Acceleration { samples, rate } = &self.acceleration;
         (!samples.is_empty() && (samples.len() as f64) < shortest * rate).then(|| {
@@ -88,8 +91,8 @@ impl<'a> Spectra<'a> {
     /// Orders of the acceleration as `<scene>-orders.csv`; nothing where nothing turns twice, or nothing shakes. Gives
     /// the file, and width of a line and orders to mark.
     pub(super) fn write_orders(&self, folder: &Path) -> Result<Option<(PathBuf, Value)>> {
-        let Some((characteristic, speed)) = self.frequencies() else { return Ok(None) };
-        let Some(angles) = self.angles() else { return Ok(None) };
+        let Some((characteristic, speed)) = self.frequencies else { return Ok(None) };
+        let Some(angles) = &self.angles else { return Ok(None) };
         if self.acceleration.samples.is_empty() {
             return Ok(None);
         }
@@ -111,16 +114,10 @@ impl<'a> Spectra<'a> {
         self.profile.is_some_and(|profile| !profile.is_constant())
     }
 
-    /// Characteristic frequencies and the shaft's speed (Hz), at the mean speed where it changes; `None` where nothing
-    /// turns, or where two rings turn in a ratio that changes.
-    fn frequencies(&self) -> Option<(Frequencies, f64)> {
-        *self.frequencies.get_or_init(|| self.found_frequencies())
-    }
-
     fn found_frequencies(&self) -> Option<(Frequencies, f64)> {
         let mut scene = self.scene.clone();
         if let Some(profile) = self.profile {
-            let speed = if self.changes() { self.angles()?.mean_speed() } else { profile.hertz(0.0) };
+            let speed = if self.changes() { self.angles.as_ref()?.mean_speed() } else { profile.hertz(0.0) };
             scene.shaft_speed = TAU * speed;
             if self.changes() && scene.housing_speed.is_some_and(|speed| speed != 0.0) {
                 note!("note: no spectra: the rings' speeds have no constant ratio");
@@ -129,11 +126,6 @@ impl<'a> Spectra<'a> {
         }
         let frequencies = Frequencies::of(&scene);
         (frequencies.bpfo > 0.0 && frequencies.bpfi > 0.0).then_some((frequencies, scene.shaft_speed.abs() / TAU))
-    }
-
-    /// Where the shaft has turned by equal angles.
-    fn angles(&self) -> Option<&EvenAngles> {
-        self.angles.get_or_init(|| self.found_angles()).as_ref()
     }
 
     fn found_angles(&self) -> Option<EvenAngles> {

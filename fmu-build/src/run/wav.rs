@@ -20,15 +20,6 @@ pub struct Wav {
     pub scale: f64,
 }
 
-/// How loud the samples of a file are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loudness {
-    /// The largest size of a sample.
-    pub largest: f64,
-    /// Share of the samples beyond 1, which the file holds and players clip.
-    pub clipped: f64,
-}
-
 impl Wav {
     /// Refuses what no WAV file can be.
     pub fn check(&self) -> Result<()> {
@@ -41,8 +32,9 @@ impl Wav {
         Ok(())
     }
 
-    /// Writes the signals at these indices, sampled at `rate` (Hz).
-    pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<Loudness> {
+    /// Writes the signals at these indices, sampled at `rate` (Hz). Gives the largest size of a sample and the share of
+    /// samples beyond 1, which the file holds and players clip.
+    pub fn write(&self, signals: &Signals, indices: &[usize], rate: f64, path: &Path) -> Result<[f64; 2]> {
         let length = 4 * signals.rows() * indices.len() as u64;
         if length > LARGEST {
             bail!("{length} bytes of samples: a WAV file holds at most {LARGEST}; take a shorter run or a lower rate");
@@ -71,7 +63,7 @@ impl Wav {
         }
         whole_file::write_with(path, |out| Ok(out.write_all(bytes.get_ref())?))?;
         let count = signals.rows() * indices.len() as u64;
-        Ok(Loudness { largest, clipped: beyond as f64 / count.max(1) as f64 })
+        Ok([largest, beyond as f64 / count.max(1) as f64])
     }
 }
 

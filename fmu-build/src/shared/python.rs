@@ -39,7 +39,6 @@ const SCRIPTS: &[(&str, &str)] = &[
     ("size.py", include_str!("../../python/size.py")),
     ("modes.py", include_str!("../../python/modes.py")),
     ("stiffness.py", include_str!("../../python/stiffness.py")),
-    ("validate.py", include_str!("../../python/validate.py")),
 ];
 const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
 const OLDEST: (u32, u32) = (3, 9);

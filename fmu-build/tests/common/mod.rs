@@ -184,7 +184,7 @@ pub(crate) fn is_committed(file: &Path, written: &str) {
 /// Lets fmpy validate FMUs; what it finds becomes the test's message.
 #[track_caller]
 pub(crate) fn validate(fmus: impl IntoIterator<Item = PathBuf>) {
-    python().run("validate.py", fmus).unwrap_or_else(|error| panic!("{error:#}"));
+    run_script("validate.py", fmus);
 }
 
 /// Runs a script of `tests/python`; what it says on failure becomes the test's message.

@@ -38,7 +38,7 @@ fn objdump_finds_no_newer_symbol_and_119_functions() {
     let newest = needed_glibc(text.as_bytes()).unwrap();
     assert!(newest <= OLDEST_GLIBC, "{newest:?}");
     let exported: Vec<_> = text.lines().filter(|line| line.contains(".text") && !line.contains("*UND*")).collect();
-    // FMI 2.0: 34 of co-simulation, 10 of model exchange, which only refuse. FMI 3.0: all 75.
+    // FMI 2.0: 34 of co-simulation, 10 of model exchange. FMI 3.0: all 75.
     for (prefix, count) in [(" fmi2", 44), (" fmi3", 75), (" ", 119)] {
         let found = exported.iter().filter(|line| line.contains(prefix)).count();
         assert_eq!(found, count, "{prefix}: {exported:#?}");

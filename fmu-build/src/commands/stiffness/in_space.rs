@@ -9,19 +9,19 @@ use brinell_analysis::statics::{BalanceInSpace, BearingInSpace};
 use brinell_analysis::statistics;
 use serde_json::json;
 
-use super::{Options, enough_points};
+use super::{OverCageAngle, enough_points};
 use crate::package::Model;
 use crate::shared::{Project, contact_map, csv, whole_file};
 
 const COORDINATES: [&str; 5] = ["x", "y", "z", "tilt_x", "tilt_y"];
 
 /// The command: `<folder>/<scene>-stiffness.csv` and a summary.
-pub(super) fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+pub(super) fn command(project: &Project, model: &Model, options: &OverCageAngle, folder: &Path) -> Result<()> {
     let scene = options.load.map_or_else(|| model.scene.clone(), |amount| loaded(&model.scene, amount));
     let map = contact_map::of(&scene, model.profile_texts(), project)?;
     let bearing = BearingInSpace::new(&scene, model.profile_texts(), map.as_deref())?;
-    let balances = bearing
-        .sweep(scene.cage.initial_angle, options.points.unwrap_or_else(|| enough_points(bearing.period(), None)))?;
+    let points = options.points(|| enough_points(bearing.period(), None));
+    let balances = bearing.sweep(scene.cage.initial_angle, points)?;
     let path = whole_file::beside(&folder.join(&scene.name), "-stiffness.csv");
     let (names, columns) = table(&balances, bearing.order());
     csv::table(&path, &names, &columns)?;

@@ -4,45 +4,57 @@
 mod in_space;
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use brinell::scene::{Bearing, ContactLaw, DefectOn, DegreesOfFreedom, Scene};
 use brinell_analysis::statics::{
     Balance, Bottom, CriticalLoad, NoCriticalLoad, StaticBearing, StaticError, min_mean_max, sweep,
 };
-
+use clap::Args;
 use serde_json::{Value, json};
 
 use crate::package::Model;
-use crate::shared::{Project, Python, contact_map, csv, whole_file};
+use crate::shared::{Drawn, Project, Python, contact_map, csv, number, whole, whole_file};
 
-/// What the user says.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// Amount of the load (N), along the scene's; `None` for the scene's own.
-    pub load: Option<f64>,
-    /// Evenly spaced cage angles within one element spacing; `None` for as many as the defect needs to be seen.
-    pub points: Option<usize>,
-    /// Whether to draw.
-    pub figure: bool,
-    /// Whether standard output is the summary as JSON and nothing else; files are then named on standard error.
-    pub json: bool,
+/// Options of `stiffness` and `modes`, which sweep the cage angle.
+#[derive(Debug, Args)]
+pub struct OverCageAngle {
+    /// Scene file (TOML), or the name of a shipped scene; its cage stands still
+    pub(super) scene: PathBuf,
+    /// Load in newtons along the scene's load; `modes` takes a scene without load as well, and puts it on the shaft
+    /// and downwards, wherever that is held [default: the scene's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    pub(super) load: Option<f64>,
+    /// Cage angles within one element spacing [default: 200, more for a short defect]; those at which elements begin to
+    /// carry are added, by `modes` also those at an edge of a defect and where modes change much
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
+    points: Option<u32>,
+    /// Print the summary as JSON; files are named on standard error
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) drawn: Drawn,
 }
 
-impl Options {
+impl OverCageAngle {
+    /// Evenly spaced cage angles within one element spacing, `otherwise` where the user does not say.
+    pub(super) fn points(&self, otherwise: impl FnOnce() -> usize) -> usize {
+        self.points.map_or_else(otherwise, |n| n as usize)
+    }
+
     /// Says what was written, unless standard output is for JSON.
-    pub(crate) fn tell(&self, what: impl std::fmt::Display) {
+    pub(super) fn tell(&self, what: impl std::fmt::Display) {
         if self.json { eprint!("{what}") } else { print!("{what}") }
     }
 
     /// Names a file that was written.
-    pub(crate) fn name(&self, path: &Path) {
+    pub(super) fn name(&self, path: &Path) {
         self.tell(format_args!("{}\n", path.display()));
     }
 
     /// Refuses a load that is none.
-    pub(crate) fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         if let Some(amount) = self.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
             bail!("load {amount} N: it must be finite and above 0");
         }
@@ -59,10 +71,12 @@ const CAGE_ANGLES: usize = 24;
 const VARIATIONS: usize = 21;
 
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
-pub fn command(project: &Project, model: &Model, options: Options, folder: &Path) -> Result<()> {
+pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
+    let model = Model::read(&options.scene)?;
     options.check()?;
+    let folder = options.drawn.folder(project, "stiffness");
     if model.scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
-        return in_space::command(project, model, options, folder);
+        return in_space::command(project, &model, options, &folder);
     }
     let map = contact_map::of(&model.scene, model.profile_texts(), project)?;
     let bearing = loaded(StaticBearing::with_map(&model.scene, model.profile_texts(), map.as_deref())?, options.load)?;
@@ -73,13 +87,13 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     let inside = model.scene.defects.iter().find(|defect| defect.on == DefectOn::Inner).map(|defect| defect.angle);
     let under_load = inside.map(|angle| libm::atan2(y, x) - angle);
     let bearing = under_load.map_or_else(|| bearing.clone(), |angle| bearing.with_shaft_angle(angle));
-    let plain = plain(&bearing, model, options.load)?;
+    let plain = plain(&bearing, &model, options.load)?;
     let plain = under_load.map_or_else(|| plain.clone(), |angle| plain.with_shaft_angle(angle));
     let bottom = bottom_of(&bearing)?;
     // In the middle of the sweep element 1 is in the middle of the defect, at its ends two elements are about it.
     let middle = bottom.map_or(libm::atan2(y, x), |bottom| bottom.middle);
     let first = middle - 0.5 * bearing.period();
-    let points = options.points.unwrap_or_else(|| enough_points(bearing.period(), bearing.defect_length()));
+    let points = options.points(|| enough_points(bearing.period(), bearing.defect_length()));
     let balances = sweep(&bearing, first, points)?;
 
     let stem = folder.join(&model.scene.name);
@@ -106,7 +120,7 @@ pub fn command(project: &Project, model: &Model, options: Options, folder: &Path
     } else {
         print!("{}", summary(&plain, &balances, critical)?);
     }
-    if options.figure {
+    if !options.drawn.no_figure {
         let python = Python::prepare(project)?;
         options.tell(python.run("stiffness.py", [stem])?);
     }

@@ -81,7 +81,7 @@ fn unit_definitions(table: &[Variable], exchanged: &[ExchangeVariable]) -> Vec<V
         table.iter().filter_map(unit).chain(exchanged.iter().map(|variable| variable.unit)).collect();
     let definition = |unit| {
         let exponents: Vec<_> = units::base_units(unit).into_iter().filter(|(_, exponent)| *exponent != 0).collect();
-        let shown: Vec<_> = units::display_units(unit).iter().map(|shown| (shown.name, number(shown.factor))).collect();
+        let shown: Vec<_> = units::display_units(unit).iter().map(|&(name, factor)| (name, number(factor))).collect();
         context! { name => units::name(unit), quantity => units::quantity(unit), exponents, shown }
     };
     used.into_iter().map(definition).collect()

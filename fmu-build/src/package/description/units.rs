@@ -6,15 +6,6 @@ use std::f64::consts::PI;
 
 use brinell::simulation::interface::table::Unit;
 
-/// A unit that a host shows instead.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DisplayUnit {
-    /// Name.
-    pub name: &'static str,
-    /// Shown value = factor · value.
-    pub factor: f64,
-}
-
 /// The unit's name, its quantity (the Modelica library's, empty where it has none), and its exponents of kilogram,
 /// metre, second and radian.
 fn definition(unit: Unit) -> (&'static str, &'static str, [i8; 4]) {
@@ -56,7 +47,7 @@ pub fn quantity(unit: Unit) -> Option<&'static str> {
 pub(super) fn attributes(unit: Unit, nominal: f64) -> Vec<(&'static str, String)> {
     let mut attributes = vec![("unit", name(unit).to_owned())];
     attributes.extend(quantity(unit).map(|name| ("declaredType", name.to_owned())));
-    attributes.extend(display_unit(unit, nominal).map(|shown| ("displayUnit", shown.name.to_owned())));
+    attributes.extend(display_unit(unit, nominal).map(|(name, _)| ("displayUnit", name.to_owned())));
     attributes
 }
 
@@ -66,19 +57,19 @@ pub fn base_units(unit: Unit) -> [(&'static str, i8); 4] {
     [("kg", kg), ("m", m), ("s", s), ("rad", rad)]
 }
 
-/// The units that a host may show instead; the first is that of the type.
-pub fn display_units(unit: Unit) -> &'static [DisplayUnit] {
+/// The units that a host may show instead: name, and shown value over value; the first is that of the type.
+pub fn display_units(unit: Unit) -> &'static [(&'static str, f64)] {
     match unit {
-        Unit::RadianPerSecond => &[DisplayUnit { name: "rev/min", factor: 30.0 / PI }],
-        Unit::Radian => &[DisplayUnit { name: "deg", factor: 180.0 / PI }],
-        Unit::Metre => &[DisplayUnit { name: "mm", factor: 1e3 }, DisplayUnit { name: "um", factor: 1e6 }],
+        Unit::RadianPerSecond => &[("rev/min", 30.0 / PI)],
+        Unit::Radian => &[("deg", 180.0 / PI)],
+        Unit::Metre => &[("mm", 1e3), ("um", 1e6)],
         _ => &[],
     }
 }
 
 /// The unit in which a host shows values of this order of magnitude.
-pub fn display_unit(unit: Unit, nominal: f64) -> Option<DisplayUnit> {
+pub fn display_unit(unit: Unit, nominal: f64) -> Option<(&'static str, f64)> {
     let shown = display_units(unit);
     // From below a tenth of the larger unit on, the smaller one.
-    shown.iter().find(|shown| shown.factor * nominal >= 0.1).or(shown.last()).copied()
+    shown.iter().find(|(_, factor)| factor * nominal >= 0.1).or(shown.last()).copied()
 }

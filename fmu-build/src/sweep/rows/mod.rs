@@ -133,7 +133,7 @@ pub(super) struct Journal {
 
 impl Journal {
     /// Opens the journal in a folder; gives the rows that are there, each run once. What was torn is cut off, in a
-    /// fresh file that is written in `running`.
+    /// new file that is written in `running`.
     pub(super) fn open(folder: &Path, running: &Path, columns: &[Column]) -> Result<(Self, Vec<Row>)> {
         let path = folder.join(FILE);
         let about = || path.display().to_string();
@@ -149,11 +149,11 @@ impl Journal {
         }
         rows.sort_by_key(Row::run);
         rows.dedup_by_key(|row| row.run());
-        let fresh = running.join(FILE);
-        whole_file::write_with(&fresh, |out| {
+        let new_file = running.join(FILE);
+        whole_file::write_with(&new_file, |out| {
             Ok(rows.iter().try_for_each(|row| out.write_all(row.line().as_bytes()))?)
         })?;
-        whole_file::take_out(&fresh, folder)?;
+        whole_file::take_out(&new_file, folder)?;
         let file = File::options().append(true).open(&path).with_context(about)?;
         Ok((Self { path, file }, rows))
     }

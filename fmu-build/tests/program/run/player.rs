@@ -141,9 +141,9 @@ const SOUND: &str = "new Promise((done) => setTimeout(done, 200)).then(() => sou
   })))";
 
 #[test]
-fn play_moves_the_bearing_and_pause_holds_it_and_sound_is_the_sensors_signal() {
-    let Some(browser) = browser() else { return };
-    let mut tab = Tab::open(&browser, &page("page-played", "6205-spall-5deg", &["--stop", "0.3"]));
+#[ignore = "opens a browser"]
+fn play_in_a_browser_moves_the_bearing_and_pause_holds_it_and_sound_is_the_sensors_signal() {
+    let mut tab = Tab::open(&browser(), &page("page-played", "6205-spall-5deg", &["--stop", "0.3"]));
     tab.said(WATCH);
     let before = tab.said(STATE);
     assert_eq!((&before["button"], tab.said(COUNT)[0].as_u64()), (&json!("Play"), Some(0)), "nobody has pressed it");
@@ -190,9 +190,9 @@ const ENLARGED: &str = "(() => {
 })()";
 
 #[test]
-fn where_no_ball_is_at_the_defect_the_page_says_how_far_the_nearest_is() {
-    let Some(browser) = browser() else { return };
-    let mut tab = Tab::open(&browser, &page("page-enlarged", "6205-spall-5deg", &["--stop", "0.1"]));
+#[ignore = "opens a browser"]
+fn where_no_ball_is_at_the_defect_the_page_in_a_browser_says_how_far_the_nearest_is() {
+    let mut tab = Tab::open(&browser(), &page("page-enlarged", "6205-spall-5deg", &["--stop", "0.1"]));
     let said = tab.said(ENLARGED);
     let said: Vec<&str> = said.as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
     assert_eq!(said.len(), 39, "{said:?}");
@@ -205,9 +205,9 @@ fn where_no_ball_is_at_the_defect_the_page_says_how_far_the_nearest_is() {
 }
 
 #[test]
-fn sound_of_a_run_whose_sensor_stays_as_it_is_says_so() {
-    let Some(browser) = browser() else { return };
-    let mut tab = Tab::open(&browser, &page("page-silent", "6205-hosted", &["--stop", "0.02"]));
+#[ignore = "opens a browser"]
+fn sound_in_a_browser_of_a_run_whose_sensor_stays_as_it_is_says_so() {
+    let mut tab = Tab::open(&browser(), &page("page-silent", "6205-hosted", &["--stop", "0.02"]));
     tab.said(WATCH);
     let button = tab.said("document.getElementById('motion-sound').textContent");
     assert_eq!(button, "No sound: housing.ay stays as it is");
