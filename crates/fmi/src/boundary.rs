@@ -28,7 +28,7 @@ where
 {
     let _usual = UsualArithmetic::begin();
     // There is no instance, so there is no logger: the status has to say it all.
-    let Ok(mut instance) = handles::borrow(component) else { return Status::Error };
+    let Some(mut instance) = handles::borrow(component) else { return Status::Error };
     if !function.allowed.contains(instance.mode) {
         let failure = Failure::OutOfMode { mode: instance.mode, function };
         return fail(&mut instance, function, failure);

@@ -8,21 +8,13 @@ use crate::boundary;
 use crate::c_interface::Bool;
 use crate::instance::{Borrowed, Clock, Failure, GivenUp, Mode};
 
-/// Where a step has ended.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Reached {
-    /// Time (s).
-    pub(crate) time: f64,
-    /// Whether that is before the end asked for.
-    pub(crate) early: bool,
-}
-
-/// Takes a step from a communication point, with intermediate updates if the host wants them.
-pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Result<Reached, Failure> {
+/// Takes a step from a communication point, with intermediate updates if the host wants them. Gives the time (s) that
+/// it has reached, and whether that is before the end asked for.
+pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Result<(f64, bool), Failure> {
     if instance.updates.is_none() {
         instance.take_step(point, step)?;
         let clock = instance.clock.ok_or(Failure::NotSetUp)?;
-        return Ok(Reached { time: clock.time, early: false });
+        return Ok((clock.time, false));
     }
     let whole = instance.begin_step(point, step)?;
     let mut under_way = instance.simulation.begin_step(step)?;
@@ -33,7 +25,7 @@ pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
         let time = if under_way.is_done() && !early { whole.time } else { point + under_way.elapsed() };
         // Rounding may not lead beyond the step.
         let time = time.clamp(point, whole.time);
-        let wanted = update(instance, Instants { from: point, time, to: whole.time }, under_way.is_done())?;
+        let wanted = update(instance, [point, time, whole.time], under_way.is_done())?;
         instance.simulation.resume(&mut under_way, inspection)?;
         if let Some(at) = wanted {
             under_way.shorten_to(at - point);
@@ -44,22 +36,12 @@ pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     let reached = if early { clock.moved(point, under_way.elapsed()) } else { whole };
     instance.simulation.end_step(under_way);
     instance.finish_step(reached)?;
-    Ok(Reached { time: reached.time, early })
+    Ok((reached.time, early))
 }
 
-/// When the host is called within a step (s).
-struct Instants {
-    /// Begin of the step.
-    from: f64,
-    /// Where it has come to.
-    time: f64,
-    /// End of the step.
-    to: f64,
-}
-
-/// Calls the host. Gives the time at which it wants the step to return early, if it does.
-fn update(instance: &mut Borrowed, at: Instants, is_done: bool) -> Result<Option<f64>, Failure> {
-    let Instants { from, time, to } = at;
+/// Calls the host at `time` in a step between two others (s). Gives the time at which it wants the step to return
+/// early, if it does.
+fn update(instance: &mut Borrowed, [from, time, to]: [f64; 3], is_done: bool) -> Result<Option<f64>, Failure> {
     let Some(updates) = &mut instance.updates else { return Ok(None) };
     let (callback, environment) = (updates.callback, updates.environment);
     let can_return = updates.early_return && !is_done;

@@ -51,19 +51,12 @@ pub struct ConjugateGradients<'a> {
 }
 
 impl<'a> ConjugateGradients<'a> {
-    /// Prepares kernels and transforms. `tolerance` is the residual to reach, relative to the approach.
+    /// Prepares kernels and transforms. `tolerance` is the residual to reach, relative to the approach; `highest` the
+    /// largest pressure (Pa), infinite of bodies that stay elastic.
     ///
     /// # Errors
-    /// [`ContactError::BadInput`] for a tolerance that rounding does not allow.
-    pub fn new(problem: &'a GridProblem, tolerance: f64) -> Result<Self, ContactError> {
-        Self::limited(problem, tolerance, f64::INFINITY)
-    }
-
-    /// The same with a largest pressure (Pa), infinite of bodies that stay elastic.
-    ///
-    /// # Errors
-    /// As [`ConjugateGradients::new`], and for a pressure that is not above 0.
-    pub fn limited(problem: &'a GridProblem, tolerance: f64, highest: f64) -> Result<Self, ContactError> {
+    /// [`ContactError::BadInput`] for a tolerance that rounding does not allow, and a pressure that is not above 0.
+    pub fn new(problem: &'a GridProblem, tolerance: f64, highest: f64) -> Result<Self, ContactError> {
         if !(highest > 0.0) {
             return Err(ContactError::BadInput {
                 quantity: "pressure limit",
@@ -110,18 +103,17 @@ impl<'a> ConjugateGradients<'a> {
     /// When the iteration does not end.
     pub fn at_approach(&mut self, approach: f64) -> Result<GridContact, ContactError> {
         let mut coarser: Option<(usize, Vec<f64>)> = None;
-        let mut reached = (0.0, 0);
+        let mut residual = 0.0;
         for (depth, level) in self.levels.iter_mut().enumerate().rev() {
             level.start(approach, coarser.take());
             let limit = if depth == 0 { self.tolerance } else { COARSE_TOLERANCE } * approach.abs();
-            reached = level.solve(limit)?;
+            residual = level.solve(limit)?;
             if depth > 0 {
                 coarser = Some((level.columns, level.pressure.clone()));
             }
         }
-        let (finest, (residual, iterations)) = (&self.levels[0], reached);
-        let residual = residual / approach.abs();
-        let mut contact = self.problem.contact(approach, finest.pressure.clone(), residual, iterations);
+        let finest = &self.levels[0];
+        let mut contact = self.problem.contact(approach, finest.pressure.clone(), residual / approach.abs());
         contact.dent = finest.dent();
         Ok(contact)
     }
@@ -201,32 +193,32 @@ impl Level {
         self.fft.multiply(&self.pressure, &mut self.deflection);
     }
 
-    /// Residual (m) that is reached, and in how many iterations.
-    fn solve(&mut self, limit: f64) -> Result<(f64, usize), ContactError> {
+    /// Residual (m) that is reached.
+    fn solve(&mut self, limit: f64) -> Result<f64, ContactError> {
         const MOST: usize = 1000;
         let mut iterations = 0;
         self.multiply_pressure();
-        let (mut fresh, mut energy) = (true, 1.0);
+        let (mut restarts, mut energy) = (true, 1.0);
         let (mut residual, mut best) = (f64::INFINITY, f64::INFINITY);
         let mut step = 0.0;
         while iterations < MOST {
             let [open, penetration, pull] = self.advance(step);
             residual = open.max(penetration);
             if residual <= limit && pull == 0.0 {
-                return Ok((residual, iterations));
+                return Ok(residual);
             }
-            let mut fresh_set = false;
+            let mut new_set = false;
             // The set is changed when its own equation is solved well enough to tell, the better the longer it takes.
             if open <= penetration.max(limit) || (pull > 0.0 && open <= 0.3 * best) {
                 best = open.min(best);
-                fresh_set = self.change_set(limit);
-                fresh |= fresh_set;
+                new_set = self.change_set(limit);
+                restarts |= new_set;
             }
             iterations += 1;
             self.fft.approximate_inverse(&self.residual, &mut self.preconditioned);
             let next = dot(&self.residual, &self.preconditioned);
-            let beta = if fresh { 0.0 } else { next / energy };
-            (fresh, energy) = (false, next);
+            let beta = if restarts { 0.0 } else { next / energy };
+            (restarts, energy) = (false, next);
             for ((d, &z), &active) in self.direction.iter_mut().zip(&self.preconditioned).zip(&self.active) {
                 *d = active * (z + beta * *d);
             }
@@ -234,8 +226,8 @@ impl Level {
             let curvature = dot(&self.direction, &self.product);
             if !(curvature > 0.0) {
                 // All that was in the set came to the limit: what interpenetrates now enters it.
-                if fresh_set && self.highest.is_finite() {
-                    (step, fresh) = (0.0, true);
+                if new_set && self.highest.is_finite() {
+                    (step, restarts) = (0.0, true);
                     continue;
                 }
                 break;

@@ -259,7 +259,7 @@ impl BallOnRaceway {
         let touch = gap.iter().fold(f64::INFINITY, |m, &h| m.min(h));
         gap.iter_mut().for_each(|h| *h -= touch);
         let problem = GridProblem::new(n, n, cell, modulus, gap)?;
-        let mut solver = ConjugateGradients::limited(&problem, RESIDUAL, self.pressure_limit)?;
+        let mut solver = ConjugateGradients::new(&problem, RESIDUAL, self.pressure_limit)?;
         let within = |approach| {
             let contact = solver.at_approach(approach)?;
             problem.check_border(&contact).map(|()| contact)

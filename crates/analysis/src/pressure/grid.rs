@@ -29,8 +29,6 @@ pub struct GridContact {
     pub dent: Vec<f64>,
     /// Largest of: |gap| where pressed, penetration where not; over the approach.
     pub residual: f64,
-    /// Iterations of the solver.
-    pub iterations: usize,
 }
 
 /// The contact under a force (N), which is positive, of bodies that `solve` presses to an approach (m), to a relative
@@ -161,7 +159,7 @@ impl GridProblem {
     }
 
     /// Turns pressures over π E* into a contact.
-    pub fn contact(&self, approach: f64, scaled: Vec<f64>, residual: f64, iterations: usize) -> GridContact {
+    pub fn contact(&self, approach: f64, scaled: Vec<f64>, residual: f64) -> GridContact {
         let scale = std::f64::consts::PI * self.effective_modulus;
         let mut pressure = scaled;
         let mut sum = 0.0;
@@ -170,7 +168,7 @@ impl GridProblem {
             sum += *p;
         }
         let force = sum * self.cell[0] * self.cell[1];
-        GridContact { approach, pressure, force, dent: Vec::new(), residual, iterations }
+        GridContact { approach, pressure, force, dent: Vec::new(), residual }
     }
 
     /// Refuses a contact at the grid's border, where bodies that go on beyond it are cut off.

@@ -33,7 +33,7 @@ macro_rules! functions {
         /// then ignored.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $free_instance(instance: Component) {
-            if let Ok(instance) = handles::borrow(instance)
+            if let Some(instance) = handles::borrow(instance)
                 && functions::FREE_INSTANCE.allowed.contains(instance.mode)
             {
                 crate::instantiation::free(instance, stringify!($free_instance));

@@ -86,16 +86,8 @@ impl Logger {
 
     /// Switches all categories off, or on as listed; an empty list means all. Gives the first unknown name.
     pub(crate) fn switch<'a>(&mut self, on: bool, names: &[&'a str]) -> Result<(), &'a str> {
-        self.switched_on = if on && names.is_empty() { Category::All as u8 } else { 0 };
-        let mut result = Ok(());
-        for name in names {
-            match Category::LIST.into_iter().find(|category| category.name() == *name) {
-                Some(category) if on => self.switched_on |= category as u8,
-                Some(_) => {}
-                None => result = result.and(Err(*name)),
-            }
-        }
-        result
+        self.switched_on = 0;
+        self.turn(on, names)
     }
 
     /// Sends a line if its category is on. `text` is called only then.

@@ -73,13 +73,6 @@ pub unsafe extern "C" fn fmi2Instantiate(
     )
 }
 
-/// `fmi2FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
-///
-/// # Safety
-/// `fmi2SetDebugLogging`: logging off, or on for the categories listed, an empty list meaning all. An unknown
-/// category is a warning; the others are set.
-///
-/// # Safety
 /// `fmi2SetupExperiment`: start, stop and tolerance.
 ///
 /// A tolerance that the host defines can only tighten the one in force (`solver.tolerance`): hosts hand in their own

@@ -180,31 +180,12 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _unlockPreemption: Option<PreemptionCallback>,
 ) -> Instance {
     // SAFETY: this function's contract.
-    unsafe { refuse("fmi3InstantiateScheduledExecution", instanceName, instanceEnvironment, logMessage, loggingOn) }
+    let name = unsafe { text(instanceName) };
+    let logger = |name| Some(Logger::plain(logMessage, instanceEnvironment, name, loggingOn != FALSE));
+    let refusal = || Err(Refusal::NotProvided(CO_SIMULATION));
+    instantiation::instantiate("fmi3InstantiateScheduledExecution", name, logger, refusal, |_| Ok(()))
 }
 
-/// # Safety
-/// `name` is null or ends in NUL; the callback may be called.
-unsafe fn refuse(
-    function: &'static str,
-    name: FmiString,
-    environment: InstanceEnvironment,
-    callback: Option<LogMessageCallback>,
-    on: Bool,
-) -> Instance {
-    // SAFETY: this function's contract.
-    let name = unsafe { text(name) };
-    let logger = |name| Some(Logger::plain(callback, environment, name, on != FALSE));
-    instantiation::instantiate(function, name, logger, || Err(Refusal::NotProvided(CO_SIMULATION)), |_| Ok(()))
-}
-
-/// `fmi3FreeInstance`: ends an instance and frees its saved states. NULL and dead handles are ignored.
-///
-/// # Safety
-/// `fmi3SetDebugLogging`: turns the categories listed on or off, all of them if none is listed. An unknown category is
-/// a warning; the others are set.
-///
-/// # Safety
 /// `fmi3EnterInitializationMode`: start, stop and tolerance. A tolerance can only tighten the one in force
 /// (`solver.tolerance`); to loosen it, set `solver.tolerance`.
 ///

@@ -35,11 +35,11 @@ pub unsafe extern "C" fn fmi3DoStep(
             store("earlyReturn", earlyReturn, FALSE)?;
             store("lastSuccessfulTime", lastSuccessfulTime, before)?;
         }
-        let reached = intermediate::take_step(instance, currentCommunicationPoint, communicationStepSize)?;
+        let (time, early) = intermediate::take_step(instance, currentCommunicationPoint, communicationStepSize)?;
         // SAFETY: as above.
         unsafe {
-            store("earlyReturn", earlyReturn, reached.early.into())?;
-            store("lastSuccessfulTime", lastSuccessfulTime, reached.time)
+            store("earlyReturn", earlyReturn, early.into())?;
+            store("lastSuccessfulTime", lastSuccessfulTime, time)
         }
     })
 }

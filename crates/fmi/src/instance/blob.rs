@@ -49,7 +49,7 @@ pub(crate) enum BlobError {
 
 /// Number of bytes of [`encode`].
 pub(crate) fn length(snapshot: &Snapshot) -> usize {
-    encoded_length(snapshot.simulation.byte_count())
+    encoded_length(snapshot.simulation.to_bytes().len())
 }
 
 /// The bytes of a state.

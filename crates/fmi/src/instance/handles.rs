@@ -44,15 +44,6 @@ static SLOTS: [Slot; SLOT_COUNT] =
 /// Where to begin the search for a free slot: a hint, so that low slots are used again first.
 static HINT: AtomicUsize = AtomicUsize::new(0);
 
-/// Why a handle was refused. The boundary cannot log it: there is no instance whose logger could be asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Refused {
-    /// Null, freed, or never given out.
-    Unknown,
-    /// The instance is in the middle of another call.
-    InUse,
-}
-
 /// An instance, borrowed for the length of one call.
 pub(crate) struct Borrowed {
     slot: &'static Slot,
@@ -177,20 +168,18 @@ pub(crate) fn insert(instance: Box<Instance>) -> Result<Component, Box<Instance>
     Err(instance)
 }
 
-/// Borrows the instance behind a handle.
+/// Borrows the instance behind a handle; not if that is null, freed or never given out, or in the middle of another
+/// call. Nobody can log why: there is no instance whose logger could be asked.
 #[inline]
-pub(crate) fn borrow(component: Component) -> Result<Borrowed, Refused> {
+pub(crate) fn borrow(component: Component) -> Option<Borrowed> {
     let handle = component.addr() as u64;
     // An in-use mark or a missing live mark in the handle itself would confuse the exchange below.
     if handle & 15 != LIVE {
-        return Err(Refused::Unknown);
+        return None;
     }
     let slot = &SLOTS[(handle >> SLOT_SHIFT) as usize % SLOT_COUNT];
-    match slot.key.compare_exchange(handle, handle | IN_USE, Ordering::Acquire, Ordering::Relaxed) {
-        Ok(_) => Ok(Borrowed { slot, key: handle, instance: slot.instance.load(Ordering::Relaxed) }),
-        Err(key) if key == handle | IN_USE => Err(Refused::InUse),
-        Err(_) => Err(Refused::Unknown),
-    }
+    slot.key.compare_exchange(handle, handle | IN_USE, Ordering::Acquire, Ordering::Relaxed).ok()?;
+    Some(Borrowed { slot, key: handle, instance: slot.instance.load(Ordering::Relaxed) })
 }
 
 /// Takes a borrowed instance out of the table: its handle is dead from here on.

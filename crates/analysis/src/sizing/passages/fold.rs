@@ -38,8 +38,6 @@ pub struct Passages {
     pub starts: Vec<f64>,
     /// Samples per passage, mean over the recording.
     pub period: f64,
-    /// Standard deviation of the shifts from even passages (share of a period).
-    pub jitter: f64,
     /// Which passages of the recording these are.
     index: Vec<usize>,
 }
@@ -51,7 +49,7 @@ impl Passages {
         // One period at each end is lost to the filters' ends and to shifts.
         let count = ((samples as f64 / period) as usize).saturating_sub(2).min(most);
         let index: Vec<usize> = (0..count).collect();
-        Self { starts: evenly(&index, period), period, jitter: 0.0, index }
+        Self { starts: evenly(&index, period), period, index }
     }
 
     /// Those at these indices.
@@ -128,8 +126,7 @@ impl Passages {
             (Some(&first), Some(&last)) if last > first => (even[even.len() - 1] - even[0]) / (last - first) as f64,
             _ => period,
         };
-        let rest: Vec<f64> = starts.iter().zip(&even).map(|(s, e)| s - e).collect();
-        Self { jitter: statistics::deviation(&rest) / mean_period, starts, period: mean_period, index }
+        Self { starts, period: mean_period, index }
     }
 }
 
