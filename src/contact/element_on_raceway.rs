@@ -43,15 +43,11 @@ pub enum Across {
 impl ElementOnRaceway {
     /// Element and one raceway of a bearing.
     pub fn of(bearing: &Bearing, raceway: RacewaySide) -> Self {
-        let conformity = match raceway {
-            RacewaySide::Inner => bearing.conformity_inner,
-            RacewaySide::Outer => bearing.conformity_outer,
-        };
         Self {
             element_radius: bearing.element_radius(),
             raceway_radius: raceway.radius(bearing),
             across: match bearing.roller() {
-                None => Across::Groove(conformity * bearing.element_diameter),
+                None => Across::Groove(bearing.groove_radii()[raceway as usize]),
                 Some(roller) => {
                     Across::Roller { length: roller.length, crowned: roller.profile == RollerProfile::Logarithmic }
                 }

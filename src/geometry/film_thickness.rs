@@ -56,9 +56,9 @@ impl LubricatedContact {
     /// Those of a bearing's inner and outer raceway under the force (N) of the most loaded contact.
     pub fn of(bearing: &Bearing, film: &Film, force: f64) -> [Self; 2] {
         let r = bearing.element_radius();
-        let groove = |conformity: f64| -(conformity * bearing.element_diameter);
-        let inner = [bearing.inner_raceway_radius(), groove(bearing.conformity_inner)];
-        let outer = [-bearing.outer_raceway_radius(), groove(bearing.conformity_outer)];
+        let grooves = bearing.groove_radii();
+        let inner = [bearing.inner_raceway_radius(), -grooves[0]];
+        let outer = [-bearing.outer_raceway_radius(), -grooves[1]];
         [inner, outer].map(|raceway| {
             let equivalent = raceway.map(|radius| 1.0 / relative_curvature(r, radius));
             Self::new(equivalent, effective_modulus(bearing), film, force)

@@ -81,11 +81,6 @@ pub fn passage_frequency(count: usize, cage: f64, ring: f64) -> f64 {
     count as f64 * (cage - ring).abs()
 }
 
-/// Cage speed per inner ring speed, ω_c/ω_i, for an outer ring that stands.
-pub fn cage_ratio(bearing: &Bearing, slip: f64) -> f64 {
-    Ratios::new(bearing, slip, 0.0).cage[0]
-}
-
 /// Characteristic frequencies where the shaft turns at `speed_hz` (Hz) and the outer ring stands.
 pub fn frequencies(bearing: &Bearing, slip: f64, speed_hz: f64) -> Frequencies {
     Frequencies::at(&Ratios::new(bearing, slip, 0.0), bearing.element_count, [speed_hz, 0.0])

@@ -9,6 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A scene under construction; [`build`](Self::build) checks it.
 #[derive(Debug, Clone)]
+#[must_use]
 pub struct SceneBuilder {
     scene: Scene,
     /// `None` for the map with a defect and Hertz's law without.
@@ -161,125 +162,107 @@ impl Default for Sensor {
 
 impl SceneBuilder {
     /// Name, which becomes that of the FMU: letters, digits, `-` and `_`.
-    #[must_use]
     pub fn name(mut self, name: &str) -> Self {
         name.clone_into(&mut self.scene.name);
         self
     }
 
     /// One line about it for the reader.
-    #[must_use]
     pub fn description(mut self, description: &str) -> Self {
         description.clone_into(&mut self.scene.description);
         self
     }
 
     /// Gravity (m/s²), x and y.
-    #[must_use]
     pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
         self.scene.gravity = gravity;
         self
     }
 
     /// In how many directions the rings move.
-    #[must_use]
     pub fn degrees_of_freedom(mut self, freedom: DegreesOfFreedom) -> Self {
         self.scene.bearing.degrees_of_freedom = freedom;
         self
     }
 
     /// Axial load on the inner ring (N), along z.
-    #[must_use]
     pub fn axial_load(mut self, load: f64) -> Self {
         self.scene.shaft.axial.load = load;
         self
     }
 
     /// Shaft speed (rad/s), counter-clockwise.
-    #[must_use]
     pub fn shaft_speed(mut self, speed: f64) -> Self {
         self.scene.shaft_speed = speed;
         self
     }
 
     /// Angle of the inner ring at the start (rad), from which its defects are counted.
-    #[must_use]
     pub fn shaft_initial_angle(mut self, angle: f64) -> Self {
         self.scene.shaft_initial_angle = angle;
         self
     }
 
     /// Load on the inner ring (N), x and y.
-    #[must_use]
     pub fn shaft_load(mut self, load: [f64; 2]) -> Self {
         self.scene.shaft.load = load;
         self
     }
 
     /// The inner ring and who moves it; its load with it.
-    #[must_use]
     pub fn shaft(mut self, ring: Ring) -> Self {
         self.scene.shaft = ring;
         self
     }
 
     /// The outer ring and who moves it; its load with it.
-    #[must_use]
     pub fn housing(mut self, ring: Ring) -> Self {
         self.scene.housing = ring;
         self
     }
 
     /// Speed of the outer ring (rad/s), counter-clockwise; without it the ring does not turn and has no such input.
-    #[must_use]
     pub fn housing_speed(mut self, speed: f64) -> Self {
         self.scene.housing_speed = Some(speed);
         self
     }
 
     /// Angle of the outer ring at the start (rad), from which its defects are counted.
-    #[must_use]
     pub fn housing_initial_angle(mut self, angle: f64) -> Self {
         self.scene.housing_initial_angle = angle;
         self
     }
 
     /// A spall of the outer raceway with vertical edges: angle of its centre (rad), length (m) and depth (m).
-    #[must_use]
     pub fn spall(self, angle: f64, length: f64, depth: f64) -> Self {
         self.defect(Defect::outer(angle, DefectShape::Spall { length, depth, edge_slope: FRAC_PI_2 }))
     }
 
     /// One defect more, of either raceway or of an element.
-    #[must_use]
     pub fn defect(mut self, defect: Defect) -> Self {
         self.scene.defects.push(defect);
         self
     }
 
     /// Waves of one order more around a body.
-    #[must_use]
     pub fn waviness(mut self, waves: Waviness) -> Self {
         self.scene.waviness.push(waves);
         self
     }
 
     /// Law of the contacts near the defect.
-    #[must_use]
     pub fn law(mut self, law: ContactLaw) -> Self {
         self.law = Some(law);
         self
     }
 
     /// Damping of the contacts.
-    #[must_use]
     pub fn damping(mut self, damping: Damping) -> Self {
         self.scene.contact.damping = damping;
         self
     }
 
     /// Cells of the contact grid of laws `map` and `love` along and across Hertz's ellipse at the largest force.
-    #[must_use]
     pub fn contact_cells(mut self, cells: [u32; 2]) -> Self {
         self.scene.contact.cells = Some(cells);
         self
@@ -287,84 +270,72 @@ impl SceneBuilder {
 
     /// Largest force on an element near a defect (N) that laws `map` and `love` are prepared for; without it the loads
     /// say.
-    #[must_use]
     pub fn largest_force(mut self, force: f64) -> Self {
         self.scene.contact.largest_force = Some(force);
         self
     }
 
     /// Largest error of the contact map, relative to the largest force.
-    #[must_use]
     pub fn map_accuracy(mut self, accuracy: f64) -> Self {
         self.scene.contact.map_accuracy = Some(accuracy);
         self
     }
 
     /// An oil film in the contacts, which are dry without it.
-    #[must_use]
     pub fn film(mut self, film: Film) -> Self {
         self.scene.film = Some(film);
         self
     }
 
     /// The cage: its slip, and the angle of element 1 at the start (rad).
-    #[must_use]
     pub fn cage(mut self, slip: f64, initial_angle: f64) -> Self {
         self.scene.cage = Cage { slip, initial_angle, ..self.scene.cage };
         self
     }
 
     /// The elements' lag behind the spin of pure rolling, which counts where one has a defect.
-    #[must_use]
     pub fn spin_slip(mut self, slip: f64) -> Self {
         self.scene.cage.spin_slip = slip;
         self
     }
 
     /// What makes passages uneven.
-    #[must_use]
     pub fn irregularity(mut self, irregularity: CageIrregularity) -> Self {
         self.scene.cage.irregularity = Some(irregularity);
         self
     }
 
     /// One accelerometer more on the housing.
-    #[must_use]
     pub fn sensor(mut self, sensor: Sensor) -> Self {
         self.scene.sensors.push(sensor);
         self
     }
 
     /// A probe of the displacement between the rings.
-    #[must_use]
     pub fn probe(mut self) -> Self {
         self.scene.probe = true;
         self
     }
 
     /// A recorder of outputs inside the step.
-    #[must_use]
     pub fn recorder(mut self, recorder: Recorder) -> Self {
         self.scene.recorder = Some(recorder);
         self
     }
 
     /// Relative tolerance of the time integration.
-    #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.scene.tolerance = tolerance;
         self
     }
 
     /// Most integration steps in one communication step.
-    #[must_use]
     pub fn max_steps(mut self, steps: u64) -> Self {
         self.scene.max_steps = steps;
         self
     }
 
     /// The default run: its stop time and its communication step (s).
-    #[must_use]
     pub fn experiment(mut self, stop: f64, step: f64) -> Self {
         self.scene.experiment = Experiment { stop, step };
         self

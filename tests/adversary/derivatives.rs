@@ -269,12 +269,13 @@ impl Both {
 }
 
 /// Every kind of shipped scene; one of each element, defect, law and ring.
-const SCENES: [&str; 10] = [
+const SCENES: [&str; 11] = [
     "6205-healthy",
     "6205-hosted",
     "6205-irregular-cage",
     "6205-two-defects",
     "er16k-element",
+    "er16k-tb1",
     "er16k-tb1-oil",
     "er16k-tb1-hosted-shaft",
     "er16k-tb2-compliant",

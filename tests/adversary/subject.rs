@@ -41,6 +41,13 @@ pub struct Subject {
 /// Name, and the real or whole number that it has.
 pub type Parameter = (String, Result<f64, i32>);
 
+/// Values of variables.
+pub fn read(simulation: &mut Simulation, references: &[u32]) -> Result<Vec<f64>, SimulationError> {
+    let mut values = vec![0.0; references.len()];
+    simulation.reals(references, &mut values)?;
+    Ok(values)
+}
+
 impl Subject {
     pub fn new(case: &Case) -> Result<Self, Refusal> {
         let scene = brinell_scene_file::from_toml(&case.toml())?;
@@ -60,9 +67,7 @@ impl Subject {
 
     /// The signals, in the order of [`signals`].
     pub fn read(&mut self) -> Result<Vec<f64>, SimulationError> {
-        let mut values = vec![0.0; self.references.len()];
-        self.simulation.reals(&self.references, &mut values)?;
-        Ok(values)
+        read(&mut self.simulation, &self.references)
     }
 
     /// The signals at the start.

@@ -35,7 +35,7 @@ fn show(what: &str, [two, three]: [f64; 2]) {
 }
 
 /// A scene for both versions.
-struct Bench<'a> {
+struct Both<'a> {
     library: &'a Path,
     resources: Resources,
     simulation: Simulation,
@@ -49,7 +49,7 @@ fn started(library: &Path, resources: &Resources) -> Instance {
     instance
 }
 
-impl<'a> Bench<'a> {
+impl<'a> Both<'a> {
     fn new(library: &'a Path, scene: &str) -> Self {
         println!("{scene}, law hertz");
         let resources = Resources::of(scene);
@@ -162,14 +162,14 @@ fn main() {
     let library = given.map_or_else(|| library_beside().unwrap(), |given| brinell_tests::root().join(given));
     println!("{}\n{:44} {:>10} {:>10}", library.display(), "", "FMI 2.0", "FMI 3.0");
     for scene in ["6205-healthy", "er16k-tb1"] {
-        let mut bench = Bench::new(&library, scene);
-        bench.reading_and_setting();
-        bench.saving();
-        bench.living();
-        bench.beyond_the_solver();
+        let mut both = Both::new(&library, scene);
+        both.reading_and_setting();
+        both.saving();
+        both.living();
+        both.beyond_the_solver();
         for step in [1e-12, 1e-5, 1e-3] {
-            bench.stepping(step, false);
+            both.stepping(step, false);
         }
-        bench.stepping(1e-3, true);
+        both.stepping(1e-3, true);
     }
 }

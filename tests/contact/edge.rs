@@ -6,6 +6,7 @@ use brinell::contact::error::ContactError;
 use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution, image_factor};
 use brinell::contact::map::{ContactMap, MapSpecification};
 use brinell::surface::{Profile, Surface};
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::FRAC_PI_2;
 
 /// A spall 6.5 mm long with flanks of this slope (rad).
@@ -92,30 +93,14 @@ fn pressed(step: f64, interference: &[f64]) -> Vec<f64> {
     let mut set: Vec<usize> = (0..CELLS).filter(|&i| interference[i] > 0.0).collect();
     loop {
         let n = set.len();
-        let mut rows: Vec<Vec<f64>> = set
-            .iter()
-            .map(|&i| set.iter().map(|&k| influence(i, k, step)).chain([interference[i]]).collect())
-            .collect();
-        for c in 0..n {
-            for r in c + 1..n {
-                let factor = rows[r][c] / rows[c][c];
-                let (upper, lower) = rows.split_at_mut(r);
-                for (low, up) in lower[0][c..].iter_mut().zip(&upper[c][c..]) {
-                    *low -= factor * up;
-                }
-            }
-        }
-        let mut p = vec![0.0; n];
-        for r in (0..n).rev() {
-            let known: f64 = (r + 1..n).map(|c| rows[r][c] * p[c]).sum();
-            p[r] = (rows[r][n] - known) / rows[r][r];
-        }
+        let matrix = DMatrix::from_fn(n, n, |row, column| influence(set[row], set[column], step));
+        let p = matrix.lu().solve(&DVector::from_fn(n, |row, _| interference[set[row]])).unwrap();
         if p.iter().all(|&p| p >= 0.0) {
             let mut all = vec![0.0; CELLS];
-            set.iter().zip(p).for_each(|(&i, p)| all[i] = p);
+            set.iter().zip(&p).for_each(|(&i, &p)| all[i] = p);
             return all;
         }
-        set = set.into_iter().zip(p).filter(|(_, p)| *p >= 0.0).map(|(i, _)| i).collect();
+        set = set.into_iter().zip(&p).filter(|(_, p)| **p >= 0.0).map(|(i, _)| i).collect();
     }
 }
 

@@ -18,8 +18,9 @@ mod rollers_near_defects;
 mod support;
 mod surface;
 
-use brinell::contact::element_on_raceway::ElementOnRaceway;
+use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
+use brinell::contact::rolling::RacewaySide;
 use brinell::surface::{Surface, Topography};
 use std::fmt::Write;
 use std::ops::Range;
@@ -32,6 +33,13 @@ fn hertz(approach: f64) -> f64 {
 /// The map of a surface.
 fn built(surface: &Surface, element: ElementOnRaceway, specification: MapSpecification) -> ContactMap {
     ContactMap::build(surface, element, specification, &mut Sequential(|_, _| ())).unwrap()
+}
+
+/// A roller of 7.5 mm × 9 mm on a raceway of the NU205.
+fn nu205(raceway: RacewaySide, crowned: bool) -> ElementOnRaceway {
+    let raceway_radius = if raceway == RacewaySide::Inner { 15.75e-3 } else { 23.25e-3 };
+    let across = Across::Roller { length: 9e-3, crowned };
+    ElementOnRaceway { element_radius: 3.75e-3, raceway_radius, across, raceway }
 }
 
 /// The n-th of points that fill a square evenly: Kronecker's sequence with the golden ratio's relatives.

@@ -17,7 +17,7 @@ fn sphere(approach: f64, cells: usize, limit: f64) -> GridContact {
     let side = 2.0 * 1.5 * (RADIUS * approach).sqrt() / cells as f64;
     let gap = |x: f64, y: f64| (x * x + y * y) / (2.0 * RADIUS);
     let problem = GridProblem::sampled(cells, cells, [side, side], MODULUS, gap).unwrap();
-    let contact = ConjugateGradients::limited(&problem, 1e-8, limit).unwrap().at_approach(approach).unwrap();
+    let contact = ConjugateGradients::new(&problem, 1e-8, limit).unwrap().at_approach(approach).unwrap();
     problem.check_border(&contact).unwrap();
     contact
 }
@@ -74,6 +74,6 @@ fn the_edge_of_a_spall_is_rounded_by_less_than_half_a_micrometre_and_the_force_h
 fn a_limit_that_is_none_is_refused() {
     let problem = GridProblem::new(1, 1, [1e-6; 2], MODULUS, vec![0.0]).unwrap();
     for limit in [0.0, -1e9, f64::NAN] {
-        assert!(ConjugateGradients::limited(&problem, 1e-8, limit).is_err());
+        assert!(ConjugateGradients::new(&problem, 1e-8, limit).is_err());
     }
 }

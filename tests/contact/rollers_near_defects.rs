@@ -2,6 +2,7 @@
 //! and finer grids.
 #![allow(clippy::unwrap_used)]
 
+use crate::nu205;
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::love::{LoveContact, Resolution};
 use brinell::contact::map::{ContactMap, MapSpecification, Sequential};
@@ -17,12 +18,6 @@ use std::fmt::Write;
 const MODULUS: f64 = 207e9 / 1.82;
 const LENGTH: f64 = 9e-3;
 const EDGE: f64 = -0.6e-3;
-
-fn nu205(raceway: RacewaySide, crowned: bool) -> ElementOnRaceway {
-    let raceway_radius = if raceway == RacewaySide::Inner { 15.75e-3 } else { 23.25e-3 };
-    let across = Across::Roller { length: LENGTH, crowned };
-    ElementOnRaceway { element_radius: 3.75e-3, raceway_radius, across, raceway }
-}
 
 fn spall() -> Surface {
     Surface::Profile(Profile::spall(-2.0 * EDGE, 100e-6, FRAC_PI_2))
@@ -49,7 +44,7 @@ fn problem(element: ElementOnRaceway, force: f64, [columns, rows]: [usize; 2], e
 }
 
 fn solved(problem: &GridProblem, force: f64) -> GridContact {
-    let mut solver = ConjugateGradients::new(problem, 1e-8).unwrap();
+    let mut solver = ConjugateGradients::new(problem, 1e-8, f64::INFINITY).unwrap();
     let contact = at_force(|approach| solver.at_approach(approach), force, 4e-9 * force, 1e-11).unwrap();
     let columns = problem.columns();
     assert!(contact.pressure.chunks(columns).all(|row| row[0] == 0.0), "contact ends within the columns");
@@ -154,7 +149,7 @@ fn a_long_roller_on_an_edge_sinks_as_in_plane_strain_and_so_says_the_law() {
         inside.sum::<f64>() * problem.cell()[0] * problem.cell()[1]
     };
     let law = love(false, 16).solve(edge.approach, EDGE).unwrap();
-    let equal = ConjugateGradients::new(&grids[0], 1e-8).unwrap().at_approach(law.value).unwrap();
+    let equal = ConjugateGradients::new(&grids[0], 1e-8, f64::INFINITY).unwrap().at_approach(law.value).unwrap();
     let energies = [stored(&grids[1], &edge), stored(&grids[0], &equal)];
     println!("{law:?}: energies {energies:?} J, forces {force} and {} N", equal.force * law.du);
     // Rows and columns differ.

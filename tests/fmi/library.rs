@@ -16,7 +16,7 @@ use std::sync::Mutex;
 
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// FMI 2.0: the 34 functions of co-simulation, and the 10 of model exchange that only refuse. FMI 3.0: all 75. Sorted.
+/// FMI 2.0: the 34 functions of co-simulation and the 10 of model exchange. FMI 3.0: all 75. Sorted.
 const NAMES: &str = include_str!("exports.txt");
 
 /// `er16k-tb1` with its contact map.

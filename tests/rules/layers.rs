@@ -11,6 +11,7 @@ mod reader;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use brinell_tests::files_below;
 use cycles::cycles;
 use reader::imports;
 
@@ -30,6 +31,8 @@ const CRATES: [(&str, &[&str]); 11] = [
     ("tests/fuzz", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-scene-file", "brinell-tests"]),
     ("tests/host", &[]),
 ];
+/// Tables of a manifest that name packages.
+const ALL_KINDS: [&str; 3] = ["dependencies", "dev-dependencies", "build-dependencies"];
 
 #[test]
 fn every_crate_depends_only_on_those_it_may_know() {
@@ -39,8 +42,7 @@ fn every_crate_depends_only_on_those_it_may_know() {
         text.parse().unwrap()
     };
     let oracle = read("tests/adversary/oracle");
-    let depends =
-        ["dependencies", "dev-dependencies", "build-dependencies"].into_iter().find(|kind| oracle.contains_key(*kind));
+    let depends = ALL_KINDS.into_iter().find(|kind| oracle.contains_key(*kind));
     assert_eq!(depends, None, "the oracle depends on nothing");
     let members = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().file_name());
     let members = members
@@ -54,16 +56,26 @@ fn every_crate_depends_only_on_those_it_may_know() {
     for (folder, known) in CRATES {
         let manifest = read(folder);
         // Its tests may know more.
-        let of_systems = manifest.get("target").and_then(|systems| systems.as_table()).into_iter().flatten();
-        let tables = std::iter::once(&manifest).chain(of_systems.filter_map(|(_, system)| system.as_table()));
-        let kinds = tables.flat_map(|table| [table.get("dependencies"), table.get("build-dependencies")]);
-        for (name, _) in kinds.flatten().filter_map(|kind| kind.as_table()).flatten() {
-            assert!(!ours.contains(name) || known.contains(&name.as_str()), "{folder} depends on {name}");
+        for name in dependencies(&manifest, &["dependencies", "build-dependencies"]) {
+            assert!(!ours.contains(&name) || known.contains(&name.as_str()), "{folder} depends on {name}");
         }
         let kinds = manifest.get("lib").and_then(|lib| lib.get("crate-type")).and_then(|kinds| kinds.as_array());
         let dynamic = kinds.is_some_and(|kinds| kinds.iter().any(|kind| kind.as_str() == Some("cdylib")));
         assert_eq!(dynamic, folder == "crates/fmi", "{folder}: the FMI interface is the only dynamic library");
     }
+    let laboratory = name_of("laboratory");
+    for folder in CRATES.iter().map(|c| c.0).chain(["tests"]) {
+        let all = dependencies(&read(folder), &ALL_KINDS);
+        assert!(!all.contains(&laboratory), "{folder}, or its tests, depends on {laboratory}");
+    }
+}
+
+/// Names of the packages in a manifest's tables of these kinds, those for some systems only as well.
+fn dependencies(manifest: &toml::Table, kinds: &[&str]) -> Vec<String> {
+    let of_systems = manifest.get("target").and_then(|systems| systems.as_table()).into_iter().flatten();
+    let tables = std::iter::once(manifest).chain(of_systems.filter_map(|(_, system)| system.as_table()));
+    let found = tables.flat_map(|table| kinds.iter().filter_map(move |kind| table.get(*kind)?.as_table()));
+    found.flatten().map(|(name, _)| name.clone()).collect()
 }
 
 #[test]
@@ -93,7 +105,7 @@ fn no_module_imports_one_that_imports_it() {
         let source = Some(root.join(folder).join("src")).filter(|source| source.is_dir());
         // The oracle's files stand in its folder itself.
         let source = source.unwrap_or_else(|| root.join(folder));
-        let files = files_below(&source).into_iter().map(|file| (module(&source, &file), read(&file))).collect();
+        let files = files_below(&source, "rs").into_iter().map(|file| (module(&source, &file), read(&file))).collect();
         let files = reader::without_tests(files);
         assert!(!files.is_empty(), "{} has no file", source.display());
         // The order of the layers themselves is another test's.
@@ -214,7 +226,7 @@ fn the_reader_of_imports_sees_what_it_should() {
 fn no_file_is_longer_than_400_lines_no_function_than_70_and_no_line_than_120_characters() {
     let root = brinell_tests::root();
     let folders = ["src", "crates", "fmu-build", "tests", "examples", "laboratory"];
-    let files: Vec<_> = folders.iter().flat_map(|folder| files_below(&root.join(folder))).collect();
+    let files: Vec<_> = folders.iter().flat_map(|folder| files_below(&root.join(folder), "rs")).collect();
     assert!(files.len() > 500, "{} files", files.len());
     let mut long = Vec::new();
     for file in files {
@@ -252,24 +264,7 @@ fn allowed(layer: &str, import: &str) -> bool {
 fn files_of(source: &Path, layer: &str) -> Vec<PathBuf> {
     let single = source.join(layer).with_extension("rs");
     let single = single.is_file().then_some(single);
-    single.into_iter().chain(files_below(&source.join(layer))).collect()
-}
-
-fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let Ok(entries) = fs::read_dir(&folder) else { continue };
-        for path in entries.map(|entry| entry.unwrap().path()) {
-            if path.is_dir() && !path.ends_with("target") {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
+    single.into_iter().chain(files_below(&source.join(layer), "rs")).collect()
 }
 
 fn read(file: &Path) -> String {

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use brinell_tests::files_below;
 
 /// Lines of a page of prose; pages of evidence are tables and may be longer.
 const LONGEST: usize = 200;
@@ -14,21 +16,10 @@ fn root() -> PathBuf {
     brinell_tests::root().canonicalize().unwrap()
 }
 
-fn markdown(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            markdown(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "md") {
-            found.push(path);
-        }
-    }
-}
-
 /// All pages, and the page itself without its blocks of code.
 fn pages() -> Vec<(PathBuf, String)> {
-    let mut found: Vec<PathBuf> = ABOVE.iter().map(|name| root().join(name)).collect();
-    markdown(&root().join("docs"), &mut found);
+    let above = ABOVE.iter().map(|name| root().join(name));
+    let found: Vec<PathBuf> = above.chain(files_below(&root().join("docs"), "md")).collect();
     assert!(found.len() > 50, "{} pages", found.len());
     found.into_iter().map(|path| (path.clone(), without_code(&fs::read_to_string(path).unwrap()))).collect()
 }
@@ -119,8 +110,7 @@ fn keys_that_the_page_of_symbols_names_are_keys_of_a_scene() {
 
 #[test]
 fn no_page_of_prose_has_more_than_200_lines_and_the_readme_80() {
-    let mut found = Vec::new();
-    markdown(&root().join("docs"), &mut found);
+    let mut found = files_below(&root().join("docs"), "md");
     // A table that is made of the schema is no prose either.
     let tables = [root().join("docs/evidence"), root().join("docs/reference/keys.md")];
     found.retain(|page| !tables.iter().any(|table| page.starts_with(table)));
@@ -135,9 +125,7 @@ fn no_page_of_prose_has_more_than_200_lines_and_the_readme_80() {
 #[test]
 fn the_list_of_pages_has_every_page() {
     let list = fs::read_to_string(root().join("docs/pages.md")).unwrap();
-    let mut found = Vec::new();
-    markdown(&root().join("docs"), &mut found);
-    for page in found {
+    for page in files_below(&root().join("docs"), "md") {
         let name = page.strip_prefix(root().join("docs")).unwrap().to_str().unwrap();
         // A part that another page holds has no heading.
         let part = !fs::read_to_string(&page).unwrap().starts_with("# ");
@@ -148,10 +136,8 @@ fn the_list_of_pages_has_every_page() {
 #[test]
 fn formulas_have_only_what_the_script_that_sets_them_knows() {
     let script = fs::read_to_string(root().join("docs/math.js")).unwrap();
-    let mut found = Vec::new();
-    markdown(&root().join("docs"), &mut found);
     let mut commands = 0;
-    for page in found {
+    for page in files_below(&root().join("docs"), "md") {
         let text = fs::read_to_string(&page).unwrap();
         for formula in text.split("```math\n").skip(1).map(|rest| rest.split("```").next().unwrap()) {
             for rest in formula.split('\\').skip(1) {

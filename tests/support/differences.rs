@@ -18,7 +18,7 @@ pub fn reals(simulation: &mut Simulation, references: &[u32]) -> Vec<f64> {
 pub struct Slope {
     pub given: f64,
     pub found: f64,
-    pub bend: f64,
+    pub second: f64,
     pub size: f64,
 }
 
@@ -42,8 +42,8 @@ pub fn by_input(simulation: &mut Simulation, outputs: &[&str], input: &str, h: f
         reals(simulation, &unknowns)
     });
     let slope = |i: usize| {
-        let (a, b, bend) = (before[i], after[i], (after[i] + before[i] - 2.0 * here[i]).abs() / h);
-        Slope { given: given[i], found: (b - a) / (2.0 * h), bend, size: a.abs().max(b.abs()) }
+        let (a, b, second) = (before[i], after[i], (after[i] + before[i] - 2.0 * here[i]).abs() / h);
+        Slope { given: given[i], found: (b - a) / (2.0 * h), second, size: a.abs().max(b.abs()) }
     };
     (0..given.len()).map(slope).collect()
 }
@@ -63,7 +63,7 @@ pub fn by_time(simulation: &mut Simulation, outputs: &[&str], h: f64) -> Vec<Slo
     });
     let slope = |i: usize| {
         let found = (4.0 * near[i] - far[i] - 3.0 * now[i]) / (2.0 * h);
-        Slope { given: given[i], found, bend: (far[i] + now[i] - 2.0 * near[i]).abs() / h, size: now[i].abs() }
+        Slope { given: given[i], found, second: (far[i] + now[i] - 2.0 * near[i]).abs() / h, size: now[i].abs() }
     };
     (0..given.len()).map(slope).collect()
 }

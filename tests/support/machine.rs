@@ -4,7 +4,7 @@
 #![allow(unreachable_pub, dead_code, clippy::unwrap_used)]
 
 use brinell::geometry::kinematics;
-use brinell::scene::{ContactLaw, Scene};
+use brinell::scene::{Bearing, ContactLaw, Scene};
 use brinell::simulation::Simulation;
 use brinell_analysis::statistics::Random;
 use std::f64::consts::TAU;
@@ -14,28 +14,8 @@ pub const RATE: f64 = 51_200.0;
 
 /// A 6205 under 49 N whose rig is not described: nothing to simulate.
 pub fn scene() -> Scene {
-    brinell_scene_file::from_toml(
-        r#"
-        name = "rig"
-        [bearing]
-        element_count = 9
-        element_diameter_mm = 7.94
-        pitch_diameter_mm = 39.04
-        conformity_inner = 0.52
-        conformity_outer = 0.52
-        radial_clearance_um = 5.0
-        youngs_modulus_gpa = 207.0
-        poissons_ratio = 0.3
-        density_kg_m3 = 7800.0
-        [shaft]
-        motion = "internal"
-        speed_hz = 10.0
-        load_n = [0.0, -49.0]
-        [housing]
-        motion = "internal"
-        "#,
-    )
-    .unwrap()
+    let bearing = Bearing::steel_balls(9, 7.94 / 1e3, 39.04 / 1e3);
+    Scene::builder(bearing).name("rig").shaft_speed(10.0 * TAU).shaft_load([0.0, -49.0]).build().unwrap()
 }
 
 /// A shipped scene under the contact law that needs no map.

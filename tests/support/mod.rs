@@ -232,7 +232,6 @@ impl Named {
     pub fn goes_on_alike<const N: usize>(&mut self, other: &mut Self, names: [&str; N], step: f64, count: usize) {
         let state = self.0.save();
         let bytes = state.to_bytes();
-        assert_eq!(bytes.len(), state.byte_count());
         let go_on = |bearing: &mut Self| {
             bearing.run(step, count);
             (bearing.bits(names), bearing.0.step_counts())

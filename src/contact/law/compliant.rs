@@ -173,7 +173,7 @@ mod tests {
             let elasticity = Elasticity::Crowned(Arc::new(Crown::new(&depths)));
             let crowned = ForceLaw { stiffness: 1e9, elasticity, damping };
             let line = ForceLaw { elasticity: Elasticity::Line, ..crowned.clone() };
-            let softness = [1e-9, 1e-8, 3e-7];
+            let softness = [0.0, 1e-9, 1e-8, 3e-7];
             [point, line, crowned]
                 .into_iter()
                 .flat_map(move |law| softness.map(|compliance| CompliantContact { law: law.clone(), compliance }))
@@ -228,7 +228,7 @@ mod tests {
                 let unit = by_approach.abs() + 0.1 * law.elastic_stiffness(delta);
                 // On the step itself, where damping has the elastic force's slope, the derivative is one side's, and
                 // the quotient lies between both.
-                let ends = if crowned { [delta - d, delta + d] } else { [delta; 2] };
+                let ends = if crowned && law.compliance > 0.0 { [delta - d, delta + d] } else { [delta; 2] };
                 let [a, b] = ends.map(|delta| law.force(dual(delta, 0), dual(rate, 1)).by[0]);
                 prop_assert!(a.min(b) - limit * unit < by_approach && by_approach < a.max(b) + limit * unit);
                 prop_assert!((force.by[1] - by_rate).abs() < 1e-7 * by_rate.abs());
@@ -247,6 +247,21 @@ mod tests {
             // Truncation 1e-10, rounding 1e-15/1e-5.
             prop_assert!((part(total, stiffness, compliance).share / slope - 1.0).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn an_approach_that_is_nan_gives_a_force_that_is_nan() {
+        for law in &*CONTACTS {
+            assert!(law.force(f64::NAN, 0.0).is_nan() && law.force(1e-6, f64::NAN).is_nan());
+            assert!(law.elastic(f64::NAN).is_nan() && law.elastic_stiffness(f64::NAN).is_nan());
+        }
+    }
+
+    #[test]
+    fn without_damping_the_force_is_hertz() {
+        let law = ForceLaw { stiffness: 2e10, elasticity: Elasticity::Point, damping: Damping::HuntCrossley(0.0) };
+        // 2e10 · (1e-5)^1.5 = 632.4555… N
+        assert!((law.force(1e-5, 3.0) - 632.455_532_033_675_9).abs() < 1e-9);
     }
 
     #[test]

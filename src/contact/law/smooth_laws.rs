@@ -27,9 +27,5 @@ pub fn smooth_laws(bearing: &Bearing, damping: Damping) -> [ForceLaw; 2] {
 
 /// Law of the contact with one smooth raceway, without damping: for whoever asks for approaches and forces alone.
 pub fn elastic_law(bearing: &Bearing, side: RacewaySide) -> ForceLaw {
-    let [inner, outer] = smooth_laws(bearing, Damping::HuntCrossley(0.0));
-    match side {
-        RacewaySide::Inner => inner,
-        RacewaySide::Outer => outer,
-    }
+    smooth_laws(bearing, Damping::HuntCrossley(0.0))[side as usize].clone()
 }

@@ -193,18 +193,12 @@ mod tests {
     const R: f64 = 3.97e-3;
     const R_O: f64 = 23.6325e-3;
 
-    fn spall(length: f64, depth: f64) -> RigidPath {
-        let half = 0.5 * length;
-        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], Rolling::outer_ring(R, R_O))
-            .unwrap()
+    /// Path of an element of radius `r` over a spall of half a length and a depth (m).
+    fn spall(r: f64, raceway: f64, half: f64, depth: f64) -> Result<RigidPath, ContactError> {
+        RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], Rolling::outer_ring(r, raceway))
     }
 
-    /// P = min(depth, R_o cos d − √(r² − R_o² sin² d) − (R_o − r)) at angle d past an edge.
-    fn over_an_edge(d: f64, depth: f64) -> f64 {
-        (R_O * d.cos() - (R * R - (R_O * d.sin()).powi(2)).sqrt() - (R_O - R)).min(depth)
-    }
-
-    /// P at angle `d` past an edge, above the floor.
+    /// P = R_o cos d − √(r² − R_o² sin² d) − (R_o − r) at angle d past an edge, above the floor.
     fn path_of(r: f64, raceway: f64, d: f64) -> f64 {
         raceway * d.cos() - (r * r - (raceway * d.sin()).powi(2)).sqrt() - (raceway - r)
     }
@@ -218,17 +212,13 @@ mod tests {
     #[test]
     fn a_sharp_spall_has_the_closed_form() {
         let (length, depth) = (6.5e-3, 100e-6);
-        let path = spall(length, depth);
+        let path = spall(R, R_O, 0.5 * length, depth).unwrap();
         let half = 0.5 * length / R_O;
         for i in 0..=1000 {
             let angle = half * (i as f64 / 500.0 - 1.0);
-            let expected = over_an_edge(half - angle.abs(), depth);
+            let off = value(&path, angle).path - path_of(R, R_O, half - angle.abs()).min(depth);
             // The cubics' error, 1e-16 m at this size.
-            assert!(
-                (value(&path, angle).path - expected).abs() < 2e-16,
-                "at {angle}: {:e}",
-                value(&path, angle).path - expected
-            );
+            assert!(off.abs() < 2e-16, "at {angle}: {off:e}");
         }
     }
 
@@ -236,8 +226,7 @@ mod tests {
     fn elements_of_a_fraction_of_a_millimetre_follow_the_closed_form_too() {
         for r in [25e-6, 250e-6] {
             let (raceway, half, depth) = (6.0 * r, 0.5 * r, 0.9 * r);
-            let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
-            let path = RigidPath::new(&points, Rolling::outer_ring(r, raceway)).unwrap();
+            let path = spall(r, raceway, half, depth).unwrap();
             for i in 0..=1000 {
                 let angle = half / raceway * (i as f64 / 500.0 - 1.0);
                 let d = half / raceway - angle.abs();
@@ -252,8 +241,7 @@ mod tests {
     fn slopes_are_as_exact_as_the_paths_accuracy_says() {
         for r in [25e-6, 1e-3, 3.97e-3, 0.25] {
             let (raceway, half, depth) = (6.0 * r, 0.5 * r, 0.9 * r);
-            let points = [(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)];
-            let path = RigidPath::new(&points, Rolling::outer_ring(r, raceway)).unwrap();
+            let path = spall(r, raceway, half, depth).unwrap();
             for i in 0..2000 {
                 let angle = half / raceway * ((f64::from(i) + 0.37) / 1000.0 - 1.0);
                 // tan κ by the triangle of edge, centre and the ring's centre; the element turns down from the nearer
@@ -297,11 +285,8 @@ mod tests {
         let half = 2.0 * R;
         // The edge is r beside the centre.
         let limit = (R_O * R_O - R * R).sqrt() - (R_O - R);
-        let wall = |depth: f64| {
-            RigidPath::new(&[(-half, 0.0), (-half, depth), (half, depth), (half, 0.0)], Rolling::outer_ring(R, R_O))
-        };
-        assert!(wall(0.999 * limit).is_ok());
-        let error = wall(1.001 * limit).unwrap_err();
+        assert!(spall(R, R_O, half, 0.999 * limit).is_ok());
+        let error = spall(R, R_O, half, 1.001 * limit).unwrap_err();
         let ContactError::NoWayOut { depth_mm, limit_mm, .. } = error else { panic!("{error}") };
         // 1e-13 rad to which the leap is found, under the root.
         assert!(
@@ -311,17 +296,9 @@ mod tests {
     }
 
     #[test]
-    fn a_spall_longer_than_the_roll_in_has_four_knots() {
-        let knots = spall(6.5e-3, 100e-6).knots().len();
-        assert_eq!(knots, 4, "two edges and the two ends of the floor");
-    }
-
-    #[test]
     fn a_ball_wider_than_the_spall_never_reaches_its_floor() {
         // 0.8 mm on a 6205: the drop is 16.8 µm with a cusp in the middle, whatever the depth.
-        let path =
-            RigidPath::new(&[(-4e-4, 0.0), (-4e-4, 1e-3), (4e-4, 1e-3), (4e-4, 0.0)], Rolling::outer_ring(R, 23.49e-3))
-                .unwrap();
+        let path = spall(R, 23.49e-3, 4e-4, 1e-3).unwrap();
         assert_eq!(path.knots().len(), 3);
         let cusp = path.at(0, 0.0);
         // The source prints three digits.
@@ -376,7 +353,7 @@ mod tests {
 
     #[test]
     fn slope_and_second_derivative_are_those_of_the_path() {
-        let path = spall(6.5e-3, 100e-6);
+        let path = spall(R, R_O, 3.25e-3, 100e-6).unwrap();
         let knots = path.knots();
         let angle = knots[0] + 0.4 * (knots[1] - knots[0]);
         let (h, at) = (1e-5, |a| path.at(0, a));

@@ -164,20 +164,13 @@ impl Layout {
         if i < 2 * w {
             return format!("the radial velocity of element {}", i - w + 1);
         }
-        let ring = |start: Option<usize>, count: usize| start.filter(|&s| i >= s && i < s + count).map(|s| i - s);
-        let part = ["x", "y", "vx", "vy"];
+        let parts = ["x", "y", "vx", "vy", "z", "tilt.x", "tilt.y", "", "vz", "tilt.vx", "tilt.vy", ""];
         for (start, name) in [(self.shaft, "shaft"), (self.housing, "housing")] {
-            if let Some(k) = ring(start, 12).filter(|_| self.is_beyond(i, 0) || self.is_beyond(i, 1)) {
-                let part = ["z", "tilt.x", "tilt.y", "", "vz", "tilt.vx", "tilt.vy", ""];
-                return format!("{name}.{}", part[k - 4]);
+            let k = start.and_then(|start| i.checked_sub(start)).filter(|&k| k < parts.len());
+            if let Some(k) = k.filter(|&k| k < 4 || self.is_beyond(i, 0) || self.is_beyond(i, 1)) {
+                return format!("{name}.{}", parts[k]);
             }
         }
-        if let Some(k) = ring(self.shaft, 4) {
-            format!("shaft.{}", part[k])
-        } else if let Some(k) = ring(self.housing, 4) {
-            format!("housing.{}", part[k])
-        } else {
-            "the sensor's motion".to_owned()
-        }
+        "the sensor's motion".to_owned()
     }
 }

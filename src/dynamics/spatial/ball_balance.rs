@@ -23,6 +23,7 @@ use super::ball_contacts::{BallForces, BallMotion};
 use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{COORDINATES, Model, RINGS, Space};
+use crate::dynamics::quasi_static::PathSearch;
 use crate::numerics::number::{Dual, Scalar};
 
 /// Rounding of distances of some 20 mm (m): a step shorter than this is none.
@@ -243,31 +244,18 @@ pub(super) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -
 /// Zero of a falling function, of which `of` gives value and slope, by Newton's method within the bracket that the
 /// signs give; without one walking on to where the sign says. Where the value is 0 on the way it stays there.
 fn falling_zero(guess: f64, mut of: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let (mut low, mut high, mut stride, mut x) = (f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE, guess);
+    let (mut search, mut x) = (PathSearch::between(f64::NEG_INFINITY, f64::INFINITY, FIRST_STRIDE), guess);
     for _ in 0..MOST_STEPS {
         let [value, slope] = of(x);
         if value == 0.0 || value.is_nan() {
             break;
         }
-        if value > 0.0 {
-            low = x
-        } else {
-            high = x
-        }
         let newton = x - value / slope;
-        let next = if slope < 0.0 && newton > low && newton < high && (newton - x).abs() < LONGEST_STEP {
-            newton
-        } else if low.is_finite() && high.is_finite() {
-            0.5 * (low + high)
-        } else {
-            stride *= 2.0;
-            if value > 0.0 { x + stride } else { x - stride }
-        };
-        let step = next - x;
-        if step.abs() <= ROUNDING || !(next > low && next < high) || stride > 1.0 {
-            break;
+        let newton = if slope < 0.0 && (newton - x).abs() < LONGEST_STEP { newton } else { f64::NAN };
+        match search.next(x, value, newton) {
+            Some(next) if (next - x).abs() > ROUNDING => x = next,
+            _ => break,
         }
-        x = next;
     }
     x
 }

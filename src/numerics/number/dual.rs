@@ -123,23 +123,29 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
     }
 }
 
-impl<N: Number, const K: usize> Add for Dual<N, K> {
-    type Output = Self;
+/// Sums and differences, of two numbers and with a constant.
+macro_rules! termwise {
+    ($($trait:ident $method:ident $operator:tt;)*) => {$(
+        impl<N: Number, const K: usize> $trait for Dual<N, K> {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.with(other, self.value + other.value, |a, b| a + b)
-    }
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                self.with(other, self.value $operator other.value, |a, b| a $operator b)
+            }
+        }
+
+        impl<N: Number, const K: usize> $trait<N> for Dual<N, K> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, constant: N) -> Self {
+                Self { value: self.value $operator constant, ..self }
+            }
+        }
+    )*};
 }
-
-impl<N: Number, const K: usize> Sub for Dual<N, K> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.with(other, self.value - other.value, |a, b| a - b)
-    }
-}
+termwise! { Add add +; Sub sub -; }
 
 impl<N: Number, const K: usize> Mul for Dual<N, K> {
     type Output = Self;
@@ -174,24 +180,6 @@ impl<N: Number, const K: usize> Neg for Dual<N, K> {
             by[k] = -by[k];
         }
         Self { value: -self.value, by }
-    }
-}
-
-impl<N: Number, const K: usize> Add<N> for Dual<N, K> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn add(self, constant: N) -> Self {
-        Self { value: self.value + constant, ..self }
-    }
-}
-
-impl<N: Number, const K: usize> Sub<N> for Dual<N, K> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, constant: N) -> Self {
-        Self { value: self.value - constant, ..self }
     }
 }
 

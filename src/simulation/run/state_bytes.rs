@@ -17,7 +17,7 @@ use crate::simulation::step_error::SMALLEST_STEP;
 impl State {
     /// The state as bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(self.byte_count());
+        let mut bytes = Vec::new();
         let mut copy = self.clone();
         // The visitor wants to be able to change what it sees; writing changes only the copy, with its own values.
         let written: Option<()> = copy.visit(&mut |field| {
@@ -26,22 +26,6 @@ impl State {
         });
         assert!(written.is_some(), "nothing refuses to be written");
         bytes
-    }
-
-    /// Number of bytes of [`to_bytes`](Self::to_bytes).
-    pub fn byte_count(&self) -> usize {
-        let progress = &self.progress;
-        let fixed = 8 + 1 + 4 * (8 + 8) + 3 * 8 + 2 * 8 + (1 + 4 * 4 + 2 * 8 + 1) + 10 * 8 + 4 * 8 + 4 * 8;
-        let real = progress.state.len() + progress.sensor_modes.len() + progress.under_way.len() + self.reals.len();
-        let rates = self.input_rates.as_flattened().len();
-        // Steps, means, velocities; the inputs twice, one list with a time and a flag.
-        let history = 8 * (1 + 2 + 20 + 10 + self.history.arrived.len()) + 1 + 8 * (1 + self.first.values.len());
-        fixed
-            + history
-            + 8 * real
-            + 9 * rates
-            + 4 * (progress.cells.iter().count() + self.integers.len())
-            + progress.pushing.len()
     }
 
     /// Shows every field as bytes to `field`, and takes what `field` has made of them. `None` as soon as `field`

@@ -2,6 +2,7 @@
 
 use crate::case::Motion;
 use crate::oracle::spatial::{SpatialCase, SpatialRun};
+use crate::subject::read;
 use brinell::simulation::{Simulation, SimulationError};
 
 /// What a signal is measured in.
@@ -97,12 +98,6 @@ impl Subject {
         Ok(Self { references: references.map_err(|error| error.to_string())?, simulation })
     }
 
-    fn read(&mut self) -> Result<Vec<f64>, SimulationError> {
-        let mut values = vec![0.0; self.references.len()];
-        self.simulation.reals(&self.references, &mut values)?;
-        Ok(values)
-    }
-
     fn say(&mut self, case: &SpatialCase, step: usize, rates: bool) -> Result<(), SimulationError> {
         let Some(host) = &case.steps[step].host else { return Ok(()) };
         let mut all = vec![("shaft.speed".to_owned(), host.speeds[0][0], host.speeds[0][1])];
@@ -143,12 +138,12 @@ impl Subject {
     pub fn start(&mut self, case: &SpatialCase) -> Result<Vec<f64>, SimulationError> {
         self.say(case, 0, false)?;
         self.simulation.initialize(0.0)?;
-        self.read()
+        read(&mut self.simulation, &self.references)
     }
 
     pub fn step(&mut self, case: &SpatialCase, step: usize) -> Result<Vec<f64>, SimulationError> {
         self.say(case, step, true)?;
         self.simulation.step(case.steps[step].length)?;
-        self.read()
+        read(&mut self.simulation, &self.references)
     }
 }

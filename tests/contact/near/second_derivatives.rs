@@ -11,7 +11,8 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use crate::er16k::{INNER, OUTER};
-use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
+use crate::nu205;
+use brinell::contact::element_on_raceway::ElementOnRaceway;
 use brinell::contact::equivalent::SecondDerivatives;
 use brinell::contact::love::{EdgeSoftness, LoveContact, Resolution};
 use brinell::contact::map::{MapPlan, MapSpecification};
@@ -119,16 +120,6 @@ fn compare(near: &Near, first_touch: impl Fn(f64) -> f64, count: usize, rounding
         agree([u, s], second.ss, along_s[1], 2.0 * by_s);
     }
     points
-}
-
-fn nu205(raceway: RacewaySide, crowned: bool) -> ElementOnRaceway {
-    let raceway_radius = if raceway == RacewaySide::Inner { 15.75e-3 } else { 23.25e-3 };
-    ElementOnRaceway {
-        element_radius: 3.75e-3,
-        raceway_radius,
-        across: Across::Roller { length: 9e-3, crowned },
-        raceway,
-    }
 }
 
 /// A shallow dent of which elements touch the floor, as if it were measured.

@@ -35,35 +35,6 @@ fn somewhere(scene: &str) -> (Host, two::Host) {
 }
 
 #[test]
-fn directional_derivatives_are_central_differences_and_arrays_give_all_their_elements() {
-    for scene in SCENES {
-        let (host, _) = somewhere(scene);
-        let (knowns, unknowns, count) = knowns_and_unknowns(&host);
-        let middle = host.get_values(&unknowns, count).unwrap();
-        for &known in &knowns {
-            let Kind::Real { nominal, .. } = host.table()[known as usize].kind else { panic!() };
-            // Small against what the contacts' curvature shows, large against rounding.
-            let step = 1e-6 * nominal;
-            let given = host.directional([&unknowns, &[known]], &[1.0], count).unwrap();
-            let at = host.get(&[known]).unwrap()[0];
-            let look = |value: f64| {
-                assert_eq!(host.set(&[known], &[value]), Status::Ok);
-                host.get_values(&unknowns, count).unwrap()
-            };
-            let (below, above) = (look(at - step), look(at + step));
-            look(at);
-            for i in 0..count {
-                let found = (above[i] - below[i]) / (2.0 * step);
-                // 1e-5 as in FMI 2.0's test; 1e-12 of a value over the step is rounding.
-                let allowed = 1e-5 * given[i].abs() + 1e-12 * middle[i].abs().max(1.0) / step;
-                let name = &host.table()[known as usize].name;
-                assert!((found - given[i]).abs() <= allowed, "{scene}: {i} by {name}: {found} against {}", given[i]);
-            }
-        }
-    }
-}
-
-#[test]
 fn adjoint_derivatives_are_the_transposed_product_of_directional_ones() {
     for scene in SCENES {
         let (host, _) = somewhere(scene);

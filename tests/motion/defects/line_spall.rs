@@ -3,6 +3,7 @@
 //! Times count from the moment the element's centre passes the leading edge. Expected values are those of a separate
 //! prototype of the same equations; they agree with the four events that the paper describes.
 
+use super::amplitude;
 use crate::support::{Named, shipped};
 use brinell::scene::ContactLaw;
 
@@ -38,19 +39,9 @@ impl Passage {
         let range = ((ENTRY + from) / STEP) as usize..((ENTRY + to) / STEP) as usize;
         let signal = &self.acceleration[range];
         let mean = signal.iter().sum::<f64>() / signal.len() as f64;
-        let power = |hertz: f64| {
-            let (mut re, mut im) = (0.0, 0.0);
-            for (i, value) in signal.iter().enumerate() {
-                let share = i as f64 / (signal.len() - 1) as f64;
-                // A Hann window keeps the decaying start from smearing the line.
-                let window = 0.5 - 0.5 * (std::f64::consts::TAU * share).cos();
-                let (sin, cos) = (std::f64::consts::TAU * hertz * i as f64 * STEP).sin_cos();
-                re += window * (value - mean) * cos;
-                im += window * (value - mean) * sin;
-            }
-            re * re + im * im
-        };
-        (3000..15000).map(|i| f64::from(i) * 0.1).max_by(|a, b| power(*a).total_cmp(&power(*b))).expect("a line")
+        let signal: Vec<f64> = signal.iter().map(|value| value - mean).collect();
+        let line = |hertz: &f64| amplitude(&signal, *hertz, STEP);
+        (3000..15000).map(|i| f64::from(i) * 0.1).max_by(|a, b| line(a).total_cmp(&line(b))).expect("a line")
     }
 }
 

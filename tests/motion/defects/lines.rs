@@ -1,5 +1,6 @@
 //! Lines of steady runs with a defect of the inner raceway or of a ball, against those of an independent simulation.
 
+use super::amplitude;
 use crate::support::Named;
 use crate::support::defects::{element, inner};
 use brinell::scene::{Ring, Scene};
@@ -17,16 +18,9 @@ fn housing_force(mut scene: Scene, seconds: f64) -> [Vec<f64>; 2] {
 
 const STEP: f64 = 2e-5;
 
-/// Amplitude of a line (N), by Hann's window.
-fn amplitude(signal: &[f64], frequency: f64) -> f64 {
-    let count = signal.len() as f64;
-    let (mut re, mut im, mut sum) = (0.0, 0.0, 0.0);
-    for (k, value) in signal.iter().enumerate() {
-        let window = 0.5 - 0.5 * (TAU * k as f64 / count).cos();
-        let (sin, cos) = (TAU * frequency * k as f64 * STEP).sin_cos();
-        (re, im, sum) = (re + window * value * cos, im - window * value * sin, sum + window);
-    }
-    2.0 * re.hypot(im) / sum
+/// Amplitudes (N) of a line (Hz) and of those at −3 to 3 times another frequency from it.
+fn with_sidebands(signal: &[f64], carrier: f64, sideband: f64) -> Vec<f64> {
+    (-3..=3).map(|k| amplitude(signal, carrier + f64::from(k) * sideband, STEP)).collect()
 }
 
 /// Share of the power from 5 to 300 Hz that lies within 0.14 Hz of the lines m·`carrier` + k·`sideband`, |k| no more
@@ -89,8 +83,7 @@ fn lines_of_a_steady_run_are_those_that_an_independent_simulation_found() {
         (&x, 2.0, [0.333, 0.481, 0.422, 0.123, 0.337, 0.624, 0.593]),
     ];
     for (signal, order, expected) in table {
-        let found: Vec<f64> = (-3..=3).map(|k| amplitude(signal, order * bpfi + f64::from(k) * shaft)).collect();
-        for (found, expected) in found.iter().zip(expected) {
+        for (found, expected) in with_sidebands(signal, order * bpfi, shaft).into_iter().zip(expected) {
             // Ten times tighter tolerances move these by 1e-3 of themselves; how the other simulation's spectrum was
             // taken (window, start) is not known, and weak lines beside strong ones show it.
             assert!((found - expected).abs() < 0.02 * expected + 0.004, "{found} for {expected}");
@@ -101,20 +94,17 @@ fn lines_of_a_steady_run_are_those_that_an_independent_simulation_found() {
     let [_, y] = housing_force(element(1.2e-3), 10.0);
     let [share, axis] = comb_share(&y, bsf, cage, 5.0);
     assert!(share > 0.95 && axis < 0.15, "{share} {axis}");
-    let lines =
-        |order: f64| -> Vec<f64> { (-3..=3).map(|k| amplitude(&y, order * bsf + f64::from(k) * cage)).collect() };
     let table = [
         (2.0, [0.025, 0.044, 0.058, 0.077, 0.080, 0.069, 0.048]),
         (4.0, [0.072, 0.118, 0.192, 0.214, 0.220, 0.169, 0.097]),
     ];
     for (order, expected) in table {
-        let found = lines(order);
         // A ball that bounces loose is chaotic over 10 s.
-        for (found, expected) in found.iter().zip(expected) {
+        for (found, expected) in with_sidebands(&y, order * bsf, cage).into_iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 0.2 || (found - expected).abs() < 0.01, "{found} for {expected}");
         }
     }
     // The two raceways are struck half a turn apart: odd multiples are weak.
-    let (odd, even) = (lines(1.0)[3], lines(2.0)[3]);
+    let (odd, even) = (amplitude(&y, bsf, STEP), amplitude(&y, 2.0 * bsf, STEP));
     assert!(odd < even / 3.0, "{odd} N at BSF, {even} N at twice that");
 }

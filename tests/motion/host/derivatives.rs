@@ -175,7 +175,7 @@ fn the_stiffness_over_a_defect_inside_changes_with_time_as_its_derivative_says()
         let slopes = by_time(&mut simulation, &STIFFNESSES, step);
         for (slope, name) in slopes.iter().zip(STIFFNESSES) {
             // Where the slope itself changes within the step a quotient says little: a contact begins, or nearly.
-            if slope.bend > 2e-2 * slope.found.abs() {
+            if slope.second > 2e-2 * slope.found.abs() {
                 continue;
             }
             // The rest of truncation is (2e-2)² of it; rounding of 1e8 N/m over 1e-8 s.
@@ -280,7 +280,7 @@ fn straight_rollers_that_rest_on_the_inner_ring_follow_it_at_every_cage_angle() 
         simulation.set("cage.initial_angle", f64::from(k) * std::f64::consts::TAU / 24.0).unwrap();
         for (slope, path) in by_input(&mut simulation, &paths, "shaft.y", 1e-10).iter().zip(&paths) {
             // A roller that begins to be carried has two derivatives.
-            if slope.bend > 1e-3 {
+            if slope.second > 1e-3 {
                 continue;
             }
             // A path of 30 µm is known to 3e-21 m, and the ring's distance curves over its play: 1e-10/0.02.

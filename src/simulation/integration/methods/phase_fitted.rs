@@ -161,27 +161,11 @@ mod tests {
         }
         let mut found = Vec::new();
         for size in 1..=most.min(left) {
-            let all = branches(size);
-            // So many of this size, with repetition but in one order only.
-            for count in 1..=left / size {
-                for chosen in choices(&all, count) {
-                    for smaller in rows(left - count * size, size - 1) {
-                        found.push([chosen.clone(), smaller].concat());
-                    }
+            // In one order only: up to order 4 no two branches have more than one vertex.
+            for branch in branches(size) {
+                for smaller in rows(left - size, size) {
+                    found.push([vec![branch.clone()], smaller].concat());
                 }
-            }
-        }
-        found
-    }
-
-    fn choices(all: &[Tree], count: usize) -> Vec<Vec<Tree>> {
-        if count == 0 {
-            return vec![Vec::new()];
-        }
-        let mut found = Vec::new();
-        for (i, first) in all.iter().enumerate() {
-            for rest in choices(&all[i..], count - 1) {
-                found.push([vec![first.clone()], rest].concat());
             }
         }
         found

@@ -13,9 +13,9 @@ impl Bearing {
         for (mode, at) in self.modes.iter().zip((self.first_mode()..).step_by(2)) {
             let omega = TAU * mode.frequency_hz;
             let [z, rate] = [y[at], y[at + 1]];
-            let bend = -acting.sensor - 2.0 * mode.damping_ratio * omega * rate - omega * omega * z;
-            (rates[at], rates[at + 1]) = (rate, bend);
-            acting.measured += mode.gain * bend + mode.quadrature_gain * omega * rate;
+            let acceleration = -acting.sensor - 2.0 * mode.damping_ratio * omega * rate - omega * omega * z;
+            (rates[at], rates[at + 1]) = (rate, acceleration);
+            acting.measured += mode.gain * acceleration + mode.quadrature_gain * omega * rate;
         }
     }
 
