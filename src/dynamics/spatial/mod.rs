@@ -5,17 +5,8 @@
 //! excitation, defects, supports of the plane, layout and methods of integration are shared.
 
 mod ball;
-mod ball_balance;
-mod ball_chained;
-mod ball_contacts;
-mod ball_in_balance;
-mod ball_lanes;
-mod ball_motion;
-mod gyroscopic;
 mod right_hand_side;
 mod tangent;
 
-pub(in crate::dynamics) use ball::{Ball, axis_of};
-pub(in crate::dynamics) use ball_chained::MOVING;
-pub(in crate::dynamics) use ball_contacts::{BallForces, BallMotion};
+pub(in crate::dynamics) use ball::{Ball, BallForces, BallMotion, MOVING, axis_of};
 pub(in crate::dynamics) use tangent::Balls;

@@ -1,6 +1,6 @@
 //! Forces and moments on the rings by their positions and tilts, each ball staying in its balance.
 
-use super::ball_contacts::BallMotion;
+use super::ball::BallMotion;
 use crate::dynamics::contacts::{Record, Shortcuts};
 use crate::dynamics::parameters::{COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, Space};
 

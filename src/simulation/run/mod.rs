@@ -15,6 +15,6 @@ mod values;
 pub use life::Simulation;
 pub(in crate::simulation) use life::UpToDate;
 pub(in crate::simulation) use running::Run;
-pub use samples::{Sample, Samples};
+pub use samples::Sample;
 pub use state::State;
 pub use stepping::{Inspection, StepUnderWay};

@@ -12,19 +12,9 @@ pub struct Sample {
     pub values: Vec<f64>,
 }
 
-/// Steps a simulation and gives its outputs, the present ones first. It has no end but an error, after which it gives
-/// nothing.
-#[derive(Debug)]
-pub struct Samples<'a> {
-    simulation: &'a mut Simulation,
-    references: Vec<u32>,
-    step: f64,
-    begun: bool,
-    failed: bool,
-}
-
 impl Simulation {
-    /// Samples of the outputs of these names, the first one now and then one after each `step` (s).
+    /// Samples of the outputs of these names, the first one now and then one after each `step` (s). They have no end
+    /// but an error, after which there is nothing.
     ///
     /// ```
     /// use brinell::scene::{Bearing, Scene};
@@ -42,33 +32,29 @@ impl Simulation {
     ///
     /// # Errors
     /// An unknown name.
-    pub fn samples(&mut self, names: &[&str], step: f64) -> Result<Samples<'_>, SimulationError> {
-        let references = names.iter().map(|name| self.reference(name)).collect::<Result<_, _>>()?;
-        Ok(Samples { simulation: self, references, step, begun: false, failed: false })
-    }
-}
-
-impl Samples<'_> {
-    fn sample(&mut self) -> Result<Sample, SimulationError> {
-        if self.begun {
-            self.simulation.step(self.step)?;
-        }
-        self.begun = true;
-        let mut values = vec![0.0; self.references.len()];
-        self.simulation.reals(&self.references, &mut values)?;
-        Ok(Sample { time: self.simulation.time(), values })
-    }
-}
-
-impl Iterator for Samples<'_> {
-    type Item = Result<Sample, SimulationError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
-        }
-        let sample = self.sample();
-        self.failed = sample.is_err();
-        Some(sample)
+    pub fn samples<'a>(
+        &'a mut self,
+        names: &[&str],
+        step: f64,
+    ) -> Result<impl Iterator<Item = Result<Sample, SimulationError>> + use<'a>, SimulationError> {
+        let references: Vec<u32> = names.iter().map(|name| self.reference(name)).collect::<Result<_, _>>()?;
+        let (mut begun, mut failed) = (false, false);
+        Ok(std::iter::from_fn(move || {
+            if failed {
+                return None;
+            }
+            let mut sample = || {
+                if begun {
+                    self.step(step)?;
+                }
+                begun = true;
+                let mut values = vec![0.0; references.len()];
+                self.reals(&references, &mut values)?;
+                Ok(Sample { time: self.time(), values })
+            };
+            let sample = sample();
+            failed = sample.is_err();
+            Some(sample)
+        }))
     }
 }

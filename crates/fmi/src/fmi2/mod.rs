@@ -10,24 +10,14 @@
 //! |---|---|
 //! | `types` | the C types of the standard's headers |
 //! | `functions` | in which modes each function may be called |
-//! | `api_*` | the exported functions, grouped as the standard groups them |
+//! | `api` | the exported functions, grouped as the standard groups them |
 
-mod api_both_versions;
-mod api_derivatives;
-mod api_life;
-mod api_model_exchange;
-mod api_step;
-mod api_variables;
+mod api;
 mod functions;
 #[cfg(test)]
 mod tests;
 mod types;
 
-pub use api_both_versions::*;
-pub use api_derivatives::*;
-pub use api_life::*;
-pub use api_model_exchange::*;
-pub use api_step::*;
-pub use api_variables::*;
+pub use api::*;
 pub use brinell::simulation::interface::Category;
 pub use types::*;

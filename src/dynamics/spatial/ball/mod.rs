@@ -9,6 +9,17 @@
 //! ```
 //! F is the force of both contacts on the ball. On a ring acts −F with the moment −q × F about its centre.
 
+mod balance;
+mod chained;
+mod contacts;
+mod gyroscopic;
+mod in_balance;
+mod lanes;
+mod motion;
+
+pub(in crate::dynamics) use chained::MOVING;
+pub(in crate::dynamics) use contacts::{BallForces, BallMotion};
+
 use crate::contact::groove::{Axis, Groove, GrooveContact, RingAxis, Spatial, cross, plus, times};
 use crate::dynamics::parameters::{COORDINATES, RingInSpace};
 use crate::numerics::number::Number;
@@ -160,7 +171,7 @@ impl<T: Number> Place<T> {
 
     /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius
     /// (m).
-    pub(super) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
+    pub(in crate::dynamics::spatial) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
         let across = self.contact.across.map(|part| part * force);
         let point = std::array::from_fn(|i| self.q[i] - self.contact.normal[i] * radius);
         OnBall { force: across, moment: cross(across, point) }

@@ -9,14 +9,19 @@
 //! equation). A contact holds the share λ/2 of it by λ M_g/D across the groove, at the point where it touches. The
 //! outer ring stands.
 
-use super::ball::OnBall;
-use super::ball_contacts::BallForces;
+use super::OnBall;
+use super::contacts::BallForces;
 use crate::dynamics::parameters::{Model, Space};
 use crate::numerics::number::Scalar;
 
 impl Model {
     /// Adds what holds the couple to the forces on a ball that both contacts carry.
-    pub(super) fn add_couple<T: Scalar>(&self, space: &Space, omega: T, found: &mut BallForces<T>) {
+    pub(in crate::dynamics::spatial) fn add_couple<T: Scalar>(
+        &self,
+        space: &Space,
+        omega: T,
+        found: &mut BallForces<T>,
+    ) {
         if space.couple_shares == [0.0; 2] || found.contacts.iter().any(|of| !(of.magnitude.value() > 0.0)) {
             return;
         }

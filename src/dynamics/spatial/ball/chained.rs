@@ -1,8 +1,8 @@
 //! A ball's contacts with many derivatives. What a contact exerts depends on how the ball is seen from its ring. It
 //! is worked out with derivatives by these few numbers, and the chain rule gives all others.
 
-use super::ball::{Ball, OnBall, Seen};
-use super::ball_contacts::BallMotion;
+use super::contacts::BallMotion;
+use super::{Ball, OnBall, Seen};
 use crate::contact::groove::{Axis, Spatial};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::Shortcuts;

@@ -17,9 +17,9 @@
 //! df/dx = f_x − f_b R_b⁻¹ R_x          b = (u, v)
 //! ```
 
-use super::ball::Ball;
-use super::ball_chained::{MOVING, STANDING};
-use super::ball_contacts::{BallForces, BallMotion};
+use super::Ball;
+use super::chained::{MOVING, STANDING};
+use super::contacts::{BallForces, BallMotion};
 use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{COORDINATES, Model, RINGS, Space};
@@ -233,7 +233,7 @@ impl<T: Scalar> BallTangent<T> {
 }
 
 /// M⁻¹ x of two by two; 0 of a matrix that holds nothing.
-pub(super) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
+pub(in crate::dynamics::spatial) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
     let determinant = a * d - b * c;
     if determinant.value() == 0.0 {
         return [T::from(0.0); 2];

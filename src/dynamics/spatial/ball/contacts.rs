@@ -1,6 +1,6 @@
 //! The contacts of one ball with both grooves, near defects or not, in single numbers with any derivatives.
 
-use super::ball::{Ball, BallState, OnBall, Place, Seen, axis_of};
+use super::{Ball, BallState, OnBall, Place, Seen, axis_of};
 use crate::contact::error::ContactError;
 use crate::contact::groove::{Axis, dot};
 use crate::contact::law::CompliantContact;
@@ -167,7 +167,7 @@ impl Model {
 
     /// One contact of a ball, in these cells.
     #[inline(never)]
-    pub(super) fn ball_contact<T: Scalar>(
+    pub(in crate::dynamics::spatial) fn ball_contact<T: Scalar>(
         &self,
         (law, side): (&CompliantContact, RacewaySide),
         space: &Space,
@@ -212,7 +212,7 @@ impl Model {
     /// # Errors
     /// Where the contact law has no answer.
     #[inline(always)]
-    pub(super) fn near_ball<T: Scalar>(
+    pub(in crate::dynamics::spatial) fn near_ball<T: Scalar>(
         &self,
         side: RacewaySide,
         space: &Space,

@@ -1,6 +1,6 @@
 //! The contacts of several balls at a time on smooth grooves. A ball near a defect has stiffness 0 here.
 
-use super::ball::{Ball, OnBall, Place, axis_of};
+use super::{Ball, OnBall, Place, axis_of};
 use crate::contact::groove::{Axis, Concentric, RingAxis, Upright};
 use crate::contact::law::{DampedLaw, Point};
 use crate::dynamics::contacts::{Record, Sums, radial};
@@ -25,7 +25,7 @@ impl Model {
     /// Smooth contacts of all balls: their part of the derivative, and, if `RECORD`, each of them. Gives the forces on
     /// both rings along their coordinates.
     #[inline(always)]
-    pub(super) fn smooth_balls<S: Wide, const RECORD: bool>(
+    pub(in crate::dynamics::spatial) fn smooth_balls<S: Wide, const RECORD: bool>(
         &self,
         simd: S,
         space: &Space,

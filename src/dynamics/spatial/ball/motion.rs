@@ -1,6 +1,6 @@
 //! Balls as an instant has them, and what is kept of their contacts.
 
-use super::ball_contacts::{BallForces, BallMotion};
+use super::contacts::{BallForces, BallMotion};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Forces, Record, Shortcuts, UnsolvedContact};
 use crate::dynamics::parameters::{FramedKinematics, Model, RingInSpace, SMOOTH, Stage};
@@ -10,7 +10,7 @@ use crate::numerics::plane::turned_by;
 impl Model {
     /// Ball `j` where it is within a step's kernels, and its acceleration about the outer ring's centre (rad/s²).
     #[inline(always)]
-    pub(super) fn ball_within(
+    pub(in crate::dynamics::spatial) fn ball_within(
         &self,
         j: usize,
         stage: &Stage,
@@ -57,7 +57,13 @@ impl Model {
 
     /// Keeps why a contact near a defect has no answer, if it is the cause.
     #[cold]
-    pub(super) fn note_unsolved(&self, cells: [[u32; 2]; 2], at: &BallMotion, found: &BallForces, forces: &mut Forces) {
+    pub(in crate::dynamics::spatial) fn note_unsolved(
+        &self,
+        cells: [[u32; 2]; 2],
+        at: &BallMotion,
+        found: &BallForces,
+        forces: &mut Forces,
+    ) {
         if let Some(unsolved) = self.unsolved_contact(cells, at, found, &mut forces.shortcuts) {
             forces.unsolved = Some(unsolved);
         }
@@ -93,7 +99,7 @@ impl Model {
 
 impl BallForces {
     /// Keeps the contacts of ball `j`, which they push with `around` (N) along e_t.
-    pub(super) fn keep(&self, model: &Model, j: usize, around: f64, record: &mut Record) {
+    pub(in crate::dynamics::spatial) fn keep(&self, model: &Model, j: usize, around: f64, record: &mut Record) {
         let [inner, outer] = &self.contacts;
         let pushing = |side: usize| {
             let contact = &self.contacts[side];

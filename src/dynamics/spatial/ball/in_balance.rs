@@ -8,9 +8,9 @@
 //! The contacts' dampers, across the grooves too, act at the rates of that balance. To first order in what they exert,
 //! d on the ball, the ball lags by b₁ = −R_b⁻¹ d, which hands both contacts the rest; no contact is made to pull by it.
 
-use super::ball::OnBall;
-use super::ball_balance::solved;
-use super::ball_contacts::{BallContact, BallForces, BallMotion};
+use super::OnBall;
+use super::balance::solved;
+use super::contacts::{BallContact, BallForces, BallMotion};
 use crate::contact::groove::{Spatial, dot};
 use crate::dynamics::contacts::{Forces, Shortcuts};
 use crate::dynamics::parameters::{Model, RINGS, RingInSpace, SMOOTH, Space, Stage};
@@ -160,7 +160,7 @@ impl Model {
 
     /// The balls' part of the right-hand side where they are in balance; gives the forces on both rings.
     #[inline(never)]
-    pub(super) fn balls_in_balance<const RECORD: bool>(
+    pub(in crate::dynamics::spatial) fn balls_in_balance<const RECORD: bool>(
         &self,
         space: &Space,
         rings: &[RingInSpace; 2],
