@@ -1,7 +1,7 @@
 //! The choice between the explicit methods and the implicit one, on measured stiffness, without a clock.
 //!
 //! All cost a known number of right-hand sides a step, so the best one is known as soon as the steps are. An explicit
-//! method can be *stable* up to h|λ| = r only, λ the fastest eigenvalue ([`Jacobian::fastest`]) and r the reach of its
+//! method can be *stable* up to h|λ| = r only, λ the fastest eigenvalue (`Jacobian::fastest`) and r the reach of its
 //! stability region in that direction. While it steps, its mean h|λ|/r is checked now and then: near 1 it is
 //! stability that limits the step, and the implicit method is tried. While that steps, each of its steps stands for
 //! max(1, h|λ|/r) explicit ones; when these would be cheaper, or have not become dearer within the first few steps, the
