@@ -75,13 +75,13 @@ struct Validate {
     /// Sampling rate of the recordings in hertz
     #[arg(long, value_name = "HZ", default_value_t = 51_200.0)]
     rate: f64,
-    /// Compute this part alone; the other tables are those of the last run
+    /// Compute this part alone; the other tables stay as they are
     #[arg(long, value_enum, value_name = "PART")]
     only: Option<validation::Part>,
     /// Sizes the synthetic machines with these numbers and nothing else: how many intervals hold, and how wide they are
     #[arg(long, value_name = "FROM..TO", value_parser = machines, exclusive = true)]
     machines: Option<Range<u64>>,
-    /// Folder for validation.md and figures [default: docs]
+    /// Folder with evidence/validation.md, whose tables are written anew, and for figures [default: docs]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Leave the figures out; no Python is needed then

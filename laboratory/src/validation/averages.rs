@@ -9,11 +9,11 @@ use brinell_analysis::statics::StaticBearing;
 use fmu_build::paper::averages::{PANELS, averaged, rings, times};
 use fmu_build::paper::{Case, LAWS};
 
-use super::{Values, write_csv};
+use super::{page::Page, write_csv};
 use fmu_build::shared::Project;
 
 /// Fills in `frequencies` and `lighter`, and writes the averaged passages that the spectrograms show.
-pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
+pub fn fill(project: &Project, page: &Page) -> Result<()> {
     let mut table = String::new();
     let mut time = Vec::new();
     let (mut names, mut columns) = (vec![("time".to_owned(), "s")], Vec::new());
@@ -40,12 +40,12 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         let (label, paper, row) = (panel.label, panel.paper, row.join(" | "));
         writeln!(table, "| {label} | {paper} | {row} | {expected} | {:.0} |", least_stiffness(&case)?)?;
     }
-    values.set("frequencies", table)?;
+    page.set_rows("frequencies", &table)?;
     // The periods of all scenes are equal: one bearing, one speed.
     let mut all = vec![time];
     all.extend(columns);
     write_csv(project, "averages", &names, &all)?;
-    values.set("lighter", lighter(project)?)?;
+    page.set_rows("lighter", &lighter(project)?)?;
     Ok(())
 }
 

@@ -10,7 +10,7 @@ use brinell_analysis::sizing;
 use brinell_analysis::sizing::{Report, Verdict};
 use brinell_analysis::statistics::{Random, rms};
 
-use super::Values;
+use super::page::Page;
 use fmu_build::paper::Case;
 use fmu_build::shared::{Project, contact_map};
 
@@ -21,7 +21,7 @@ const PASSAGES: f64 = 60.0;
 const NOISE: f64 = 0.1;
 
 /// Fills in `blind`, `blind_short` and `blind_extended`.
-pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
+pub fn fill(project: &Project, page: &Page) -> Result<()> {
     let mut table = String::new();
     for (label, name, load) in [
         ("100 µm, 4000 N", "er16k-tb2", 4000.0),
@@ -37,7 +37,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
         let critical = found.critical_load_n.map_or("–".to_owned(), |load| format!("{load:.0}"));
         writeln!(table, "| {label} | {} | {kind} | {critical} | {warned} |", verdict(&found))?;
     }
-    values.set("blind_extended", table)?;
+    page.set_rows("blind_extended", &table)?;
     let rig = Case::shipped("er16k-tb1")?;
     let mut table = String::new();
     for length in [0.0, 0.5, 1.0, 1.3] {
@@ -50,7 +50,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
             writeln!(table, "| {label} | {noise} | {} | {} |", verdict(&found), short(&found.reason))?;
         }
     }
-    values.set("blind_short", table)?;
+    page.set_rows("blind_short", &table)?;
     let mut table = String::new();
     for length in [2.0, 5.0, 8.0, rig.length()] {
         for speed in [10.0, 25.0] {
@@ -67,7 +67,7 @@ pub fn fill(project: &Project, values: &mut Values) -> Result<()> {
             writeln!(table, "{row}")?;
         }
     }
-    values.set("blind", table)?;
+    page.set_rows("blind", &table)?;
     Ok(())
 }
 

@@ -1,10 +1,9 @@
 //! Recordings of a machine, sized singly and by group, and the scene of one of them beside it.
 //!
 //! The recordings belong to others and are not part of this project. What was found in them is:
-//! `docs/evidence/validation-recordings.md` is written anew only when recordings are given.
+//! their table on the page is written anew only when recordings are given.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -349,14 +348,4 @@ fn write_beside(
     let order = (1..=comb.len()).map(|k| k as f64).collect();
     let names = [("harmonic", "1"), ("recording", "1"), ("scene", "1")].map(|(name, unit)| (name.to_owned(), unit));
     write_csv(project, &format!("{stem}-harmonics"), &names, &[order, comb.to_vec(), own.to_vec()])
-}
-
-/// Where the table of recordings is kept.
-pub fn kept(docs: &Path) -> PathBuf {
-    docs.join("evidence/validation-recordings.md")
-}
-
-/// The table as it was written last.
-pub fn last(docs: &Path) -> String {
-    fs::read_to_string(kept(docs)).unwrap_or_else(|_| "No recordings were given yet.\n".to_owned())
 }

@@ -15,7 +15,7 @@ use brinell_analysis::sizing::{Fault, Raceway};
 use brinell_analysis::statistics::{Random, median};
 use rayon::prelude::*;
 
-use super::Values;
+use super::page::Page;
 use super::synthetic_rig::SyntheticRig;
 
 /// Numbers of the machines of each group, for each length.
@@ -30,9 +30,9 @@ const RIGHT: f64 = 0.15;
 const BEARINGS: [(usize, f64, f64); 4] = [(9, 7.94, 39.04), (8, 6.747, 28.5), (9, 7.94, 39.32), (9, 9.53, 46.0)];
 
 /// Fills in `rigs` and `rigs_inner`.
-pub fn fill(values: &mut Values) -> Result<()> {
-    values.set("rigs_inner", table(Raceway::Inner, &INNER)?)?;
-    values.set("rigs", table(Raceway::Outer, &LENGTHS)?)
+pub fn fill(page: &Page) -> Result<()> {
+    page.set_rows("rigs_inner", &table(Raceway::Inner, &INNER)?)?;
+    page.set_rows("rigs", &table(Raceway::Outer, &LENGTHS)?)
 }
 
 fn table(raceway: Raceway, lengths: &[f64]) -> Result<String> {

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use brinell::scene::ContactLaw;
 use brinell_analysis::statics::StaticBearing;
 
-use super::Values;
+use super::page::Page;
 use fmu_build::paper::statics::bearing;
 use fmu_build::paper::{self, Case};
 
@@ -23,28 +23,28 @@ const ROWS: [Row; 5] = [
 ];
 
 /// Fills in `stiffness`, `critical`, `depths`, `clearances`, `compliances` and `sensitivity`.
-pub fn fill(values: &mut Values) -> Result<()> {
-    values.set("stiffness", stiffness()?)?;
+pub fn fill(page: &Page) -> Result<()> {
+    page.set_rows("stiffness", &stiffness()?)?;
     let deep = bearing(&Case::shipped("er16k-tb2")?.with_law(ContactLaw::Hertz))?;
-    values.set("critical", critical_loads()?)?;
+    page.set_rows("critical", &critical_loads()?)?;
     let mut table = String::new();
     for depth in [20.0, 25.0, 30.0, 33.0, 40.0, 50.0, 75.0, 100.0] {
         writeln!(table, "| {depth:.0} | {} |", load(&deep.with_depth_times(depth / 100.0)?)?)?;
     }
-    values.set("depths", table)?;
+    page.set_rows("depths", &table)?;
     let shallow = deep.with_depth_times(0.3)?;
     let mut table = String::new();
     for clearance in [0.0, 5.0, 10.0, 20.0, 40.0] {
         let with = |bearing: &StaticBearing| load(&bearing.with_clearance(1e-6 * clearance));
         writeln!(table, "| {clearance:.0} | {} | {} |", with(&shallow)?, with(&deep)?)?;
     }
-    values.set("clearances", table)?;
+    page.set_rows("clearances", &table)?;
     let mut table = String::new();
     for compliance in [0.0, 10.0, 20.0, 40.0, 65.0, 80.0] {
         let with = |bearing: &StaticBearing| load(&bearing.with_outer_compliance(1e-9 * compliance));
         writeln!(table, "| {compliance:.0} | {} | {} |", with(&shallow)?, with(&deep)?)?;
     }
-    values.set("compliances", table)?;
+    page.set_rows("compliances", &table)?;
     let mut table = String::new();
     for (label, bearing) in [("100 µm", &deep), ("30 µm", &shallow)] {
         let critical = bearing.critical_load()??;
@@ -58,7 +58,7 @@ pub fn fill(values: &mut Values) -> Result<()> {
             1e-9 * by.by_compliance
         )?;
     }
-    values.set("sensitivity", table)?;
+    page.set_rows("sensitivity", &table)?;
     Ok(())
 }
 
