@@ -16,12 +16,17 @@ fn root() -> PathBuf {
     brinell_tests::root().canonicalize().unwrap()
 }
 
+/// The pages in `docs`.
+fn documents() -> Vec<PathBuf> {
+    let found = files_below(&root().join("docs"), "md");
+    assert!(found.len() > 50, "{} pages", found.len());
+    found
+}
+
 /// All pages, and the page itself without its blocks of code.
 fn pages() -> Vec<(PathBuf, String)> {
     let above = ABOVE.iter().map(|name| root().join(name));
-    let found: Vec<PathBuf> = above.chain(files_below(&root().join("docs"), "md")).collect();
-    assert!(found.len() > 50, "{} pages", found.len());
-    found.into_iter().map(|path| (path.clone(), without_code(&fs::read_to_string(path).unwrap()))).collect()
+    above.chain(documents()).map(|path| (path.clone(), without_code(&fs::read_to_string(path).unwrap()))).collect()
 }
 
 fn without_code(text: &str) -> String {
@@ -110,7 +115,7 @@ fn keys_that_the_page_of_symbols_names_are_keys_of_a_scene() {
 
 #[test]
 fn no_page_of_prose_has_more_than_200_lines_and_the_readme_80() {
-    let mut found = files_below(&root().join("docs"), "md");
+    let mut found = documents();
     // A table that is made of the schema is no prose either.
     let tables = [root().join("docs/evidence"), root().join("docs/reference/keys.md")];
     found.retain(|page| !tables.iter().any(|table| page.starts_with(table)));
@@ -125,7 +130,7 @@ fn no_page_of_prose_has_more_than_200_lines_and_the_readme_80() {
 #[test]
 fn the_list_of_pages_has_every_page() {
     let list = fs::read_to_string(root().join("docs/pages.md")).unwrap();
-    for page in files_below(&root().join("docs"), "md") {
+    for page in documents() {
         let name = page.strip_prefix(root().join("docs")).unwrap().to_str().unwrap();
         // A part that another page holds has no heading.
         let part = !fs::read_to_string(&page).unwrap().starts_with("# ");
@@ -137,7 +142,7 @@ fn the_list_of_pages_has_every_page() {
 fn formulas_have_only_what_the_script_that_sets_them_knows() {
     let script = fs::read_to_string(root().join("docs/math.js")).unwrap();
     let mut commands = 0;
-    for page in files_below(&root().join("docs"), "md") {
+    for page in documents() {
         let text = fs::read_to_string(&page).unwrap();
         for formula in text.split("```math\n").skip(1).map(|rest| rest.split("```").next().unwrap()) {
             for rest in formula.split('\\').skip(1) {

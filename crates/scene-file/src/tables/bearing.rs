@@ -200,8 +200,8 @@ impl BearingTable {
             outer_compliance: keys.outer_compliance_m_n,
             element_inertia: keys.element_inertia,
         };
-        let drawn = (keys.element_diameter_rms_um, keys.element_diameter_seed);
-        diameters::put_into(&mut bearing, keys.element_diameter_offsets_um, drawn.0, drawn.1)?;
+        let (offsets_um, rms_um) = (keys.element_diameter_offsets_um, keys.element_diameter_rms_um);
+        diameters::put_into(&mut bearing, offsets_um, rms_um, keys.element_diameter_seed)?;
         clearance.put_into(&mut bearing)?;
         Ok(bearing)
     }
@@ -277,11 +277,13 @@ impl BearingTable {
     }
 
     fn density(&self, element: &RollingElement, diameter_mm: f64) -> Result<f64, TableFault> {
-        const DENSITY: &str = "bearing.density_kg_m3";
-        const MASS: &str = "bearing.element_mass_g";
-        let of_mass = |mass: f64| mass / 1e3 / element.volume(diameter_mm / 1e3);
-        let density = self.density_kg_m3.or_else(|| self.element_mass_g.map(of_mass));
-        density.ok_or(TableFault::Neither { first: DENSITY, second: MASS })
+        match (self.density_kg_m3, self.element_mass_g) {
+            (Some(density), _) => Ok(density),
+            (None, Some(mass)) => Ok(mass / 1e3 / element.volume(diameter_mm / 1e3)),
+            (None, None) => {
+                Err(TableFault::Neither { first: "bearing.density_kg_m3", second: "bearing.element_mass_g" })
+            }
+        }
     }
 }
 

@@ -233,7 +233,7 @@ impl<T: Scalar> BallTangent<T> {
 }
 
 /// M⁻¹ x of two by two; 0 of a matrix that holds nothing.
-pub(in crate::dynamics::spatial) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
+pub(super) fn solved<T: Scalar>([[a, b], [c, d]]: [[T; 2]; 2], [x, y]: [T; 2]) -> [T; 2] {
     let determinant = a * d - b * c;
     if determinant.value() == 0.0 {
         return [T::from(0.0); 2];

@@ -167,7 +167,7 @@ impl Model {
 
     /// One contact of a ball, in these cells.
     #[inline(never)]
-    pub(in crate::dynamics::spatial) fn ball_contact<T: Scalar>(
+    pub(super) fn ball_contact<T: Scalar>(
         &self,
         (law, side): (&CompliantContact, RacewaySide),
         space: &Space,
@@ -212,7 +212,7 @@ impl Model {
     /// # Errors
     /// Where the contact law has no answer.
     #[inline(always)]
-    pub(in crate::dynamics::spatial) fn near_ball<T: Scalar>(
+    pub(super) fn near_ball<T: Scalar>(
         &self,
         side: RacewaySide,
         space: &Space,

@@ -16,12 +16,7 @@ use crate::numerics::number::Scalar;
 
 impl Model {
     /// Adds what holds the couple to the forces on a ball that both contacts carry.
-    pub(in crate::dynamics::spatial) fn add_couple<T: Scalar>(
-        &self,
-        space: &Space,
-        omega: T,
-        found: &mut BallForces<T>,
-    ) {
+    pub(super) fn add_couple<T: Scalar>(&self, space: &Space, omega: T, found: &mut BallForces<T>) {
         if space.couple_shares == [0.0; 2] || found.contacts.iter().any(|of| !(of.magnitude.value() > 0.0)) {
             return;
         }

@@ -171,7 +171,7 @@ impl<T: Number> Place<T> {
 
     /// What a contact exerts with a `force` (N) across the groove at the point where it touches a ball of this radius
     /// (m).
-    pub(in crate::dynamics::spatial) fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
+    fn held(&self, force: T, radius: T::Plain) -> OnBall<T> {
         let across = self.contact.across.map(|part| part * force);
         let point = std::array::from_fn(|i| self.q[i] - self.contact.normal[i] * radius);
         OnBall { force: across, moment: cross(across, point) }
