@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => Vec::new(),
     };
     if libraries.is_empty() && env::var_os("BRINELL_LIBRARIES").is_some() {
-        let message = "BRINELL_LIBRARIES names a folder without libraries; `cargo fmu dist --only-libraries` fills one";
+        let message = "BRINELL_LIBRARIES names a folder without libraries; `cargo lab dist --only-libraries` fills one";
         return Err(message.into());
     }
     // Only a program that compiles the library needs to know where its source is.

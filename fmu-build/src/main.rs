@@ -2,8 +2,9 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use fmu_build::cli::Arguments;
+use fmu_build::shared::{Project, program};
 
 fn main() -> ExitCode {
-    fmu_build::shared::program(|| fmu_build::cli::Arguments::parse().execute())
+    program(|| Arguments::parse_as("brinell").execute(&Project::of_user()))
 }

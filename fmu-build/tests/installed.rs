@@ -1,4 +1,4 @@
-//! What users install, as `cargo fmu dist` made it: into an empty Python environment, without Rust and without the
+//! What users install, as `cargo lab dist` made it: into an empty Python environment, without Rust and without the
 //! source in sight. The programs for other machines run under Wine and QEMU and must build the same FMU to the byte.
 //!
 //! `.ci/platforms wheels` makes what these tests look at.
@@ -68,7 +68,7 @@ mod all_platforms {
     use super::*;
 
     #[test]
-    #[ignore = "needs what `cargo fmu dist` makes"]
+    #[ignore = "needs what `cargo lab dist` makes"]
     fn a_wheel_in_an_empty_environment_builds_drives_and_draws_and_leaves_nothing_else() {
         let bin = environment();
         let (here, mut demo) = user("wheel-demo", &bin.join("brinell"), &bin);
@@ -99,7 +99,7 @@ mod all_platforms {
     }
 
     #[test]
-    #[ignore = "needs what `cargo fmu dist` makes, Wine and QEMU"]
+    #[ignore = "needs what `cargo lab dist` makes, Wine and QEMU"]
     fn the_programs_for_windows_and_arm_build_the_fmu_that_the_one_for_linux_builds() {
         let folder = common::folder("archives");
         let unpacked = |end: &str| {
@@ -140,7 +140,7 @@ mod all_platforms {
         }
     }
     #[test]
-    #[ignore = "needs what `cargo fmu dist` makes"]
+    #[ignore = "needs what `cargo lab dist` makes"]
     fn every_wheel_has_its_systems_tag_and_program_the_module_and_the_licences() {
         for (processor, kind) in [("x86_64", Architecture::X86_64), ("aarch64", Architecture::Aarch64)] {
             let tags = ["manylinux_2_17", "manylinux2014"].map(|system| format!("py3-none-{system}_{processor}"));

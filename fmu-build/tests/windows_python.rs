@@ -87,7 +87,7 @@ mod all_platforms {
     }
 
     #[test]
-    #[ignore = "needs what `cargo fmu dist` makes, and Wine"]
+    #[ignore = "needs what `cargo lab dist` makes, and Wine"]
     fn the_wheel_for_windows_builds_drives_and_draws_and_leaves_nothing_else() {
         let python = WindowsPython::new("windows-wheel", &[dist::made("-win_amd64.whl")]);
         // Where pip puts programs on Windows.

@@ -1,19 +1,18 @@
-//! The command line of the repository, `cargo fmu`: what users run, and the studies behind the pages in `docs/`.
+//! The command `cargo lab`: the studies behind the pages in `docs/`, and what users install.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
-use fmu_build::cli::{Command as UserCommand, Talk};
+use fmu_build::cli::Talk;
 use fmu_build::shared::Project;
 
 use crate::{dist, report, site, validation};
 
-/// Turns bearing scenes into FMI 2.0 or 3.0 co-simulation FMUs and runs them; computes the pages in docs/ anew. Where a
-/// command speaks of the current folder, results go into target/ here.
+/// Brinell's laboratory: computes the pages in docs/ anew and makes what users install. `cargo fmu` is the program.
 #[derive(Debug, Parser)]
-#[command(name = "cargo fmu", bin_name = "cargo fmu", version, max_term_width = 100)]
+#[command(name = "cargo lab", bin_name = "cargo lab", version, max_term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -23,8 +22,6 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    #[command(flatten)]
-    User(Box<UserCommand>),
     /// Error against run time, measured on this machine: Markdown, CSV and figures
     Report(Report),
     /// Computes every claim of the paper anew: docs/evidence/validation.md and its figures
@@ -100,9 +97,8 @@ impl Arguments {
     /// Does what was asked. An error is one line for the user.
     pub fn execute(self) -> Result<()> {
         self.talk.apply();
-        let project = Project::find();
+        let project = Project::find().with_library_beside();
         match self.command {
-            Command::User(command) => command.execute(&project),
             Command::Report(options) => {
                 let folder = if options.short {
                     project.results("report")

@@ -1,4 +1,4 @@
-//! The command `cargo fmu`: see [`brinell_laboratory::cli`].
+//! The command `cargo lab`: see [`brinell_laboratory::cli`].
 
 use std::process::ExitCode;
 

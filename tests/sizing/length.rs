@@ -197,7 +197,7 @@ fn the_depth_below_which_an_extended_spall_would_ring_like_a_line_spall_is_that_
 
 #[test]
 fn a_simulated_line_spall_is_sized_by_the_scenes_own_rig_within_three_per_cent() {
-    // `cargo fmu validate` does the same with maps.
+    // `cargo lab validate` does the same with maps.
     let rig = rig(20.0);
     let mut signal = simulated(&rig, 5.0, 0.3);
     let clean = sized(signal.clone(), 20.0, &rig);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
 use brinell::scene::DegreesOfFreedom;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
@@ -84,10 +84,16 @@ pub enum Command {
 }
 
 impl Arguments {
+    /// The arguments of this process, whose program users know by this name; ends it where they are wrong.
+    pub fn parse_as(name: &'static str) -> Self {
+        let matches = Self::command().name(name).bin_name(name).get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
     /// Does what was asked. An error is one line for the user.
-    pub fn execute(self) -> Result<()> {
+    pub fn execute(self, project: &Project) -> Result<()> {
         self.talk.apply();
-        self.command.execute(&Project::of_user())
+        self.command.execute(project)
     }
 }
 

@@ -50,8 +50,8 @@ impl Choice {
 }
 
 impl Library {
-    /// The library that was chosen; else those inside this program; else compiled from the workspace's source; else the
-    /// one beside this program.
+    /// The library that was chosen; else those inside this program; else the one built along with it; else compiled from
+    /// the workspace's source; else the one beside this program.
     pub fn obtain(project: &Project, choice: &Choice) -> Result<Self> {
         let platforms = Platform::listed(&choice.platforms)?;
         if let Some(file) = &choice.file {
@@ -67,6 +67,13 @@ impl Library {
             }
             return Self::of_host(&beside_this_program()?);
         };
+        if platforms.is_empty()
+            && let Some(built) = project.built()
+            && let platform = Platform::host()?
+            && let Some(bytes) = compile::linked(project, source, platform, built)?
+        {
+            return Ok(Self { binaries: vec![Binary::new(platform, bytes)] });
+        }
         let platforms = if platforms.is_empty() { vec![Platform::host()?] } else { platforms };
         toolchain::check_installed(source, &platforms)?;
         let build = |platform: Platform| Ok(Binary::new(platform, compile::platform(project, source, platform)?));

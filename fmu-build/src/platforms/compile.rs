@@ -1,12 +1,10 @@
-//! The model library, compiled from source and kept by a checksum of all that it is made of.
-//!
-//! It has a build profile of its own (`fmu-library` in the workspace's `Cargo.toml`): stripped and optimised as a
-//! whole, which takes a minute or two a target. What was compiled of the same source by the same tools is taken again.
+//! The model library: for this machine linked of what cargo compiled for the program, for others compiled from source,
+//! which takes a minute or two a target. What was made of the same source by the same tools is taken again.
 
-use std::fs;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
 use brinell::numerics::checksum::Checksum;
@@ -26,6 +24,49 @@ pub fn platform(project: &Project, source: &Path, platform: Platform) -> Result<
         Ok([part]) => Ok(part),
         Err(parts) => universal::join(&parts).context(platform.name),
     }
+}
+
+/// The library for this machine, of the crates that cargo compiled into `built` along with this program; none where
+/// they are not there, or where the platform's file holds code for another processor too.
+///
+/// Cargo has linked one as well, for this machine's own C library; zig links the same code for old ones.
+pub fn linked(project: &Project, source: &Path, platform: Platform, built: &Path) -> Result<Option<Vec<u8>>> {
+    let code = built.join("libbrinell_fmi.rlib");
+    let (&[target], Ok(bytes)) = (platform.targets, fs::read(&code)) else { return Ok(None) };
+    let toolchain = Toolchain::new(project, source, target, true)?;
+    let Some(linker) = toolchain.linker(target) else {
+        let file = built.join(format!("{}brinell_fmi{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX));
+        return Ok(Some(fs::read(&file).with_context(|| file.display().to_string())?));
+    };
+    let mut sum = Checksum::default();
+    sum.write(&bytes);
+    sum.write(toolchain.tools.as_bytes());
+    let kept = project.cache().join("libraries").join(format!("{:016x}.{}", sum.finish(), platform.extension));
+    if let Ok(bytes) = fs::read(&kept) {
+        return Ok(Some(bytes));
+    }
+    let folder = whole_file::folder_in(project.cache())?;
+    let (root, library) = (folder.path().join("lib.rs"), folder.path().join("library"));
+    fs::write(&root, "pub use brinell_fmi::*;\n")?;
+    let output = Command::new("rustc")
+        .current_dir(source)
+        .args(["--edition", "2024", "--crate-type", "cdylib", "--crate-name", "fmu", "-Cstrip=symbols"])
+        .arg(format!("-Clinker={}", linker.display()))
+        .arg("-L")
+        .arg(format!("dependency={}", built.display()))
+        .arg("--extern")
+        .arg(format!("brinell_fmi={}", code.display()))
+        .arg(&root)
+        .arg("-o")
+        .arg(&library)
+        .output()
+        .context("cannot start rustc to link the model library")?;
+    if !output.status.success() {
+        bail!("{}: not linked: {}", platform.name, String::from_utf8_lossy(&output.stderr).trim());
+    }
+    let bytes = fs::read(&library)?;
+    whole_file::write(&kept, &bytes)?;
+    Ok(Some(bytes))
 }
 
 /// The library for one target: the one that is kept, else compiled.
@@ -82,7 +123,7 @@ fn build(source: &Path, platform: Platform, target: Target, toolchain: &Toolchai
     let output = toolchain
         .set_up(&mut Command::new(&cargo))
         .current_dir(source)
-        .args(["build", "--lib", "--package", "brinell-fmi", "--profile", "fmu-library"])
+        .args(["build", "--lib", "--package", "brinell-fmi", "--release"])
         .args(["--target", target.compiled_as(), "--locked", "--message-format", "json-render-diagnostics"])
         .stderr(Stdio::inherit())
         .output()

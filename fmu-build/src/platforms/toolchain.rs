@@ -65,6 +65,12 @@ impl Toolchain {
         command.envs(variables).env_remove("RUSTC_WORKSPACE_WRAPPER")
     }
 
+    /// The linker for this target, where it is not the machine's own.
+    pub fn linker(&self, target: Target) -> Option<&Path> {
+        let name = linker_variable(target);
+        self.variables.iter().find(|(known, _)| *known == *name).map(|(_, path)| Path::new(path))
+    }
+
     fn link_by_zig(&mut self, project: &Project, target: Target, name: &str) -> Result<()> {
         // The script that calls zig is one of Unix; and a Mac or a Windows links for itself.
         let useful = cfg!(unix) && (!target.is_host() || cfg!(target_os = "linux"));

@@ -13,6 +13,8 @@ pub struct Project {
     cache: PathBuf,
     /// `None` stands for the folder in which the user stands.
     results: Option<PathBuf>,
+    /// Where cargo put the model library that it built along with the program.
+    built: Option<PathBuf>,
 }
 
 impl Project {
@@ -33,13 +35,25 @@ impl Project {
             Some(env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from))
         };
         let cache = env::var_os("BRINELL_CACHE").map(PathBuf::from).or_else(of_source).unwrap_or_else(cache_of_user);
-        Self { source, cache: std::path::absolute(&cache).unwrap_or(cache), results: None }
+        Self { source, cache: std::path::absolute(&cache).unwrap_or(cache), results: None, built: None }
     }
 
     /// The workspace with its source in this folder; what is made goes into its own `target`.
     pub fn at(source: &Path) -> Self {
         let target = source.join("target");
-        Self { source: Some(source.to_path_buf()), cache: target.clone(), results: Some(target) }
+        Self { source: Some(source.to_path_buf()), cache: target.clone(), results: Some(target), built: None }
+    }
+
+    /// With the model library that cargo built along with this program: for programs that depend on the package
+    /// `brinell-fmi`, whose library is then of the same source.
+    pub fn with_library_beside(self) -> Self {
+        let folder = env::current_exe().ok().and_then(|program| Some(program.parent()?.join("deps")));
+        Self { built: folder, ..self }
+    }
+
+    /// Folder in which cargo put the model library that it built along with the program.
+    pub fn built(&self) -> Option<&Path> {
+        self.built.as_deref()
     }
 
     /// Root of the workspace's source, if it is there.

@@ -1,4 +1,4 @@
-//! What `cargo fmu dist` made of this version.
+//! What `cargo lab dist` made of this version.
 #![allow(dead_code, clippy::unwrap_used)] // each test binary uses a part of this
 
 use std::collections::BTreeSet;
@@ -11,7 +11,7 @@ use fmu_build::shared::Project;
 pub(crate) fn made(end: &str) -> PathBuf {
     let folder = Project::find().results("dist");
     let start = concat!("brinell-", env!("CARGO_PKG_VERSION"), "-");
-    let entries = fs::read_dir(&folder).unwrap_or_else(|_| panic!("{}: first `cargo fmu dist`", folder.display()));
+    let entries = fs::read_dir(&folder).unwrap_or_else(|_| panic!("{}: first `cargo lab dist`", folder.display()));
     let mut found: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     let fits = |path: &PathBuf| {
         let name = path.file_name().unwrap().to_str().unwrap();

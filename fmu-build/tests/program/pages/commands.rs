@@ -23,7 +23,7 @@ use crate::common;
 const ELSEWHERE: [(&str, &str); 12] = [
     ("cargo fmu demo", "tests/program/pages/commands.rs: the_demo_is_what_the_readme_shows"),
     ("cargo fmu build scenes/6205-epps.toml --platforms all", "tests/platforms.rs: all_platforms"),
-    ("cargo fmu site", "../laboratory/src/site.rs: every_page_is_in_the_contents_once_and_links_lead_somewhere"),
+    ("cargo lab site", "../laboratory/src/site.rs: every_page_is_in_the_contents_once_and_links_lead_somewhere"),
     ("cargo test --workspace", "is this"),
     ("cargo fmu run 6205-spall-5deg-machine", "as `brinell run`, minutes"),
     ("python examples/", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
