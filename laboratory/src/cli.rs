@@ -41,7 +41,7 @@ struct Site {
 
 #[derive(Debug, Args)]
 struct Dist {
-    /// Platforms to make wheels and archives for; each holds the libraries of all
+    /// Platforms to make wheels and archives for, each with the libraries of these [default: all]
     #[arg(long, value_name = "PLATFORM,…", value_delimiter = ',')]
     platforms: Vec<String>,
     /// Only the libraries, for a program compiled with BRINELL_LIBRARIES set to their folder

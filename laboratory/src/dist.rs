@@ -1,5 +1,5 @@
 //! The command `dist`: what users install, made on one machine for all. For each platform a wheel and an archive of the
-//! same program, with the model libraries of all platforms inside.
+//! same program, with the model libraries of all these platforms inside.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -22,16 +22,16 @@ const DATE: &str = "315532800";
 const FILES: [&str; 5] =
     ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "fmu-build/assets/third-party-program.txt"];
 
-/// The command: libraries, wheels and archives into `folder`; wheels and archives of these platforms alone.
+/// The command: libraries, wheels and archives of these platforms into `folder`, of all where none is named.
 pub fn command(project: &Project, platforms: &[String], only_libraries: bool, folder: &Path) -> Result<()> {
     let source = project.source().context("wheels are made of Brinell's source, which is not there")?;
-    let libraries = libraries(project, &folder.join("libraries"))?;
+    let names = if platforms.is_empty() { vec!["all".to_owned()] } else { platforms.to_vec() };
+    let libraries = libraries(project, &names, &folder.join("libraries"))?;
     if only_libraries {
         return Ok(());
     }
-    let names = if platforms.is_empty() { &["all".to_owned()][..] } else { platforms };
     let python = Python::prepare_from(project, "dist-python", REQUIREMENTS)?;
-    for platform in Platform::listed(names)? {
+    for platform in Platform::listed(&names)? {
         let wheel = wheel(project, source, platform, &libraries, &python, folder)?;
         println!("{}: {} bytes", wheel.display(), fs::metadata(&wheel)?.len());
         let archive = archive(source, platform, &wheel, folder)?;
@@ -40,10 +40,12 @@ pub fn command(project: &Project, platforms: &[String], only_libraries: bool, fo
     Ok(())
 }
 
-/// Writes the library of each platform under its platform's name.
-fn libraries(project: &Project, folder: &Path) -> Result<PathBuf> {
-    let all = Choice { file: None, platforms: vec!["all".to_owned()] };
-    let library = Library::obtain(project, &all)?;
+/// Writes the library of each of these platforms, and no other, under its platform's name.
+fn libraries(project: &Project, platforms: &[String], folder: &Path) -> Result<PathBuf> {
+    let library = Library::obtain(project, &Choice { file: None, platforms: platforms.to_vec() })?;
+    if folder.exists() {
+        fs::remove_dir_all(folder)?;
+    }
     for (binary, line) in library.binaries().iter().zip(library.describe()) {
         let file = folder.join(binary.platform.file());
         whole_file::write_if_new(&file, &binary.bytes)?;

@@ -1,5 +1,5 @@
 //! An FMU as a host has it: unpacked, its library loaded through its C interface and stepped. What an FMU costs is
-//! measured on this, because the library is optimised as a whole and programs are not.
+//! measured on this.
 
 use std::io::Cursor;
 
@@ -16,7 +16,7 @@ use zip::ZipArchive;
 /// the lowest elements.
 pub const HELD: f64 = -12e-6;
 
-/// The library that FMUs are packed with, compiled where it is not yet.
+/// The library that FMUs are packed with.
 ///
 /// # Errors
 /// Of the compiler.

@@ -18,7 +18,7 @@ use reader::imports;
 /// The order of the layers; each may import those before it.
 const ORDER: [&str; 8] = ["numerics", "scene", "geometry", "surface", "contact", "dynamics", "simulation", "recording"];
 /// The crates by folder, those of tests in `tests` aside, and those among them that each may depend on.
-const CRATES: [(&str, &[&str]); 11] = [
+const CRATES: [(&str, &[&str]); 12] = [
     ("", &[]),
     ("crates/scene-file", &["brinell"]),
     ("crates/fmi", &["brinell"]),
@@ -26,7 +26,8 @@ const CRATES: [(&str, &[&str]); 11] = [
     ("crates/spectrum", &[]),
     ("crates/analysis", &["brinell", "brinell-eigen", "brinell-spectrum"]),
     ("fmu-build", &["brinell", "brinell-analysis", "brinell-scene-file"]),
-    ("laboratory", &["brinell", "brinell-analysis", "brinell-host", "brinell-scene-file", "fmu-build"]),
+    ("crates/cargo-fmu", &["brinell-fmi", "fmu-build"]),
+    ("laboratory", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-host", "brinell-scene-file", "fmu-build"]),
     ("tests/adversary/oracle", &[]),
     ("tests/fuzz", &["brinell", "brinell-analysis", "brinell-fmi", "brinell-scene-file", "brinell-tests"]),
     ("tests/host", &[]),

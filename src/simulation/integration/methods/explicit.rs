@@ -153,8 +153,7 @@ impl Each<7, 0> for Errors {
     #[inline(always)]
     fn each<S: Wide>(&self, simd: S, [weight, stages @ ..]: [Lanes<S>; 7], found: &mut Found) -> [Lanes<S>; 0] {
         let mut sum = Lanes::splat(simd, self.0[0]) * stages[0];
-        // By index: a chain of iterators over these arrays is not resolved when the library is optimised as a whole,
-        // and calls a function for each stage.
+        // By index: a chain of iterators over these arrays calls a function for each stage.
         for n in 1..self.0.len() {
             sum = sum + Lanes::splat(simd, self.0[n]) * stages[n];
         }
