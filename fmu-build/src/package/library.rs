@@ -50,8 +50,8 @@ impl Choice {
 }
 
 impl Library {
-    /// The library that was chosen; else those inside this program; else the one built along with it; else compiled from
-    /// the workspace's source; else the one beside this program.
+    /// The library that was chosen; else those inside this program; else the one built along with it; else compiled
+    /// from the workspace's source; else the one beside this program.
     pub fn obtain(project: &Project, choice: &Choice) -> Result<Self> {
         let platforms = Platform::listed(&choice.platforms)?;
         if let Some(file) = &choice.file {
