@@ -12,7 +12,9 @@
 //! g < C and outside g > C; t is the direction across the groove, t_φ that around it. The contact angle is the one of
 //! −n outside and of n inside, from e towards a. What is lost to rounding is that of distances of some 20 mm, 4e-18 m.
 //!
-//! The groove is taken as a circle on to any angle: where it ends, at the shoulder, nothing here knows.
+//! The groove is taken as a circle up to 90°: where it ends, at the shoulder, nothing here knows. The other half of the
+//! circle, on the far side of its centre, is no steel. A ball with cos α ≤ 0 touches nothing: with c = ±(C − g), positive
+//! inside for g < C and outside for g > C, its approach is c − l < 0.
 
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::number::{Number, Scalar};
@@ -79,10 +81,24 @@ impl Groove {
     }
 
     /// Contact angle (rad) of a contact whose normal has these parts along e and a.
-    pub fn angle<T: Scalar>(&self, [along_e, along_a]: [T; 2]) -> T {
+    pub fn angle<T: Scalar>(&self, meridian: [T; 2]) -> T {
+        T::angle_of(meridian.map(|part| self.bottomwards(part)))
+    }
+
+    /// cos α of a contact whose normal has these parts along e and a; not above 0 where the ball is on the far side of
+    /// the circle's centre.
+    #[inline(always)]
+    pub fn cosine<T: Number>(&self, [along_e, _]: [T; 2]) -> T {
+        self.bottomwards(along_e)
+    }
+
+    /// A part of what points at the circle's centre inside and away from it outside, counted from the groove's centre
+    /// to the point where the ball touches.
+    #[inline(always)]
+    fn bottomwards<T: Number>(&self, part: T) -> T {
         match self.side {
-            RacewaySide::Inner => T::angle_of([along_e, along_a]),
-            RacewaySide::Outer => T::angle_of([-along_e, -along_a]),
+            RacewaySide::Inner => part,
+            RacewaySide::Outer => -part,
         }
     }
 
@@ -225,8 +241,9 @@ impl<T: Number> GrooveContact<T> {
         let length = (in_radius * in_radius + along * along).sqrt();
         let per_length = constant(1.0) / length;
         let [n_e, n_a] = [in_radius * per_length, along * per_length];
+        let (near_side, reach) = (groove.bottomwards(in_radius), q[0].plain(groove.reach));
         Self {
-            approach: length - q[0].plain(groove.reach),
+            approach: constant(0.0).if_less(near_side, length - reach, near_side - reach),
             normal: axis.in_meridian(outwards, [n_e, n_a]),
             across: axis.in_meridian(outwards, [-n_a, n_e]),
             around: axis.around(outwards),

@@ -3,8 +3,8 @@
 use super::*;
 use crate::support::Named;
 use crate::support::differences::by_input;
-use crate::support::energy::energy;
-use brinell::scene::{ContactLaw, Damping, ElementInertia};
+use crate::support::energy::{energy, exchanged_and_lost};
+use brinell::scene::{ContactLaw, Damping, Defect, DefectOn, DefectShape, ElementInertia};
 use brinell::simulation::Method;
 use std::f64::consts::{PI, TAU};
 
@@ -34,6 +34,50 @@ fn energy_is_what_the_cage_has_put_in() {
     assert!(most > 1e-6, "{most:e}");
     // Tolerance 1e-10 of an approach of 5 µm under 100 N, 5e-14 J, over a thousand steps that add up.
     assert!((last - first - work).abs() < 1e-6 * most, "{:e} of {most:e}", last - first - work);
+}
+
+#[test]
+fn balls_pass_defects_of_a_tilted_inner_ring_and_of_their_own_without_loss() {
+    let shape = DefectShape::Spall { length: 0.5e-3, depth: 50e-6, edge_slope: 0.5 * PI };
+    for (on, angle) in [(DefectOn::Inner, -1.6), (DefectOn::Element { element: 0, tilt: 0.0 }, PI + 0.05)] {
+        let scene = hosted_shaft(b6205_at_15_degrees(), DegreesOfFreedom::Five).shaft_speed(TAU * 40.0);
+        let scene = scene.cage(0.0, -0.5 * PI).law(ContactLaw::Hertz).damping(Damping::HuntCrossley(0.0));
+        let scene = scene.defect(Defect { on, angle, shape: shape.clone() }).tolerance(1e-9).gravity([0.0; 2]);
+        let mut scene = scene.build().unwrap();
+        scene.contact.across_damping = Some(0.0);
+        let place = [("shaft.y", -4e-6), ("shaft.z", 90e-6), ("shaft.tilt.x", 3e-3), ("shaft.tilt.y", -1e-3)];
+        let mut bearing = Named::started_with(scene.clone(), &place);
+        let [moved, lost] = exchanged_and_lost(&mut bearing, &scene, 1e-7, 20_000);
+        // The trapezoidal rule over some thousand steps of each edge; without the tilt's part a tenth would be missing.
+        assert!(moved > 1e-6 && lost < 1e-5 * moved, "{on:?}: {lost:e} of {moved:e}");
+    }
+}
+
+#[test]
+fn no_ball_is_pushed_by_the_far_side_of_a_grooves_circle() {
+    // In a 6205 the circles' centres come closer than l, 0.159 mm, to balls that the inner ring is too far away from.
+    let of = |freedom| {
+        let scene = Scene::builder(b6205(150e-6)).degrees_of_freedom(freedom).shaft(Ring::hosted());
+        let scene = scene.housing(Ring::fixed()).shaft_speed(TAU * 30.0).law(ContactLaw::Hertz).tolerance(1e-9);
+        started_with(Simulation::new(scene.build().unwrap(), None).unwrap(), &[("shaft.y", -85e-6)])
+    };
+    let (mut space, mut plane) = (of(DegreesOfFreedom::Three), of(DegreesOfFreedom::Two));
+    for ball in 1..=9 {
+        for (signal, limit) in [("path", 1e-15), ("force.inner", 1e-6), ("force.outer", 1e-6)] {
+            let [found, expected] =
+                [&mut space, &mut plane].map(|of| of.get(&format!("element[{ball}].{signal}")).unwrap());
+            // Rounding of 20 mm, and what it is of a contact's stiffness.
+            assert!((found - expected).abs() < limit, "{signal} of ball {ball}: {found:e}, in the plane {expected:e}");
+        }
+    }
+    let steep = free_shaft(angular(60.0), DegreesOfFreedom::Three).shaft_load([0.0, -1500.0]).axial_load(800.0);
+    let mut steep = started(steep.build().unwrap());
+    for ball in 1..=12 {
+        for side in ["inner", "outer"] {
+            let angle = steep.get(&format!("element[{ball}].contact_angle.{side}")).unwrap().to_degrees();
+            assert!(angle.abs() < 80.0, "ball {ball}, {side}: {angle} degrees");
+        }
+    }
 }
 
 #[test]

@@ -69,7 +69,8 @@ impl<T: Number> SqueezeFilm<T> {
         let filled = (one - gap * delta.plain(self.per_layer)).or_zero();
         let unloaded = (one - delta.or_zero() * self.per_thickness).or_zero();
         let share = filled * unloaded;
-        rate.or_zero() * delta.plain(self.coefficient) / gap * (share * share)
+        // Where nothing moves half of all elements resist, whichever way a ring begins to move.
+        rate.or_zero_across() * delta.plain(self.coefficient) / gap * (share * share)
     }
 }
 

@@ -106,9 +106,12 @@ impl FilmsNow {
     /// These films with the derivatives of the speed that they follow, whose value is theirs (rad/s): what resists on
     /// either raceway, and the thickness of both together (m). Where nothing turns they have none.
     pub(in crate::dynamics) fn following<T: Scalar>(&self, speed: T) -> OilFilms<T> {
-        let exponent = if self.speed == 0.0 { 0.0 } else { SPEED_EXPONENT / self.speed };
-        let change = (speed - T::from(self.speed)) * T::Plain::from(exponent) + T::from(1.0);
-        let [inner, outer] = self.thickness.map(|thickness| change * T::Plain::from(thickness));
+        let change = speed - T::from(self.speed);
+        let [inner, outer] = self.thickness.map(|thickness| {
+            // h grows with the power of the speed; its slope is a number however small both are.
+            let slope = if self.speed == 0.0 { 0.0 } else { SPEED_EXPONENT * (thickness / self.speed) };
+            change * T::Plain::from(slope) + T::from(thickness)
+        });
         let [on_inner, on_outer] = self.squeeze;
         OilFilms { squeeze: [on_inner.of_thickness(inner), on_outer.of_thickness(outer)], together: inner + outer }
     }

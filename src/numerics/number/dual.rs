@@ -1,7 +1,8 @@
 //! Dual numbers: a value with its derivatives by `K` directions, which every operation carries along exactly.
 //!
 //! They nest: of a dual number of dual numbers the derivatives have derivatives. Where a function has a kink the
-//! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant.
+//! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant, or where
+//! a function says so the mean of both.
 
 use super::{Number, Pair};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -109,6 +110,17 @@ impl<N: Number, const K: usize> Number for Dual<N, K> {
             by[k] = zero.if_less(self.value, by[k], zero);
         }
         Self { value: self.value.or_zero(), by }
+    }
+
+    #[inline(always)]
+    fn or_zero_across(self) -> Self {
+        let (zero, half) = (self.value.all(0.0), self.value.all(0.5));
+        let mut found = self.or_zero();
+        for k in 0..K {
+            let at_zero = self.value.if_less(zero, zero, half * self.by[k]);
+            found.by[k] = zero.if_less(self.value, self.by[k], at_zero);
+        }
+        found
     }
 
     #[inline(always)]

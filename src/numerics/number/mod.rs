@@ -40,6 +40,11 @@ pub trait Number:
     fn if_less(self, limit: Self, yes: Self, no: Self) -> Self;
     /// 0 for a negative value. NaN stays NaN: a force of zero would hide it.
     fn or_zero(self) -> Self;
+    /// The same with the derivatives of both sides' mean at 0, as a difference across it has.
+    #[inline(always)]
+    fn or_zero_across(self) -> Self {
+        self.or_zero()
+    }
     /// The smaller of two.
     fn at_most(self, limit: Self) -> Self;
     /// Two functions of each number, or their derivatives of any `order`.

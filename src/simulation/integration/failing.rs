@@ -110,7 +110,8 @@ pub(super) fn check_angles(
     let (mut is_cut, mut is_beside) = (false, false);
     for (j, side) in (0..model.element_count).flat_map(|j| [(j, 0), (j, 1)]) {
         let pushes = [&contacts.inner, &contacts.outer][side][j] > 0.0;
-        if pushes && contacts.meridians[2 * side][j].abs() < STEEPEST_COSINE {
+        let meridian = [contacts.meridians[2 * side][j], contacts.meridians[2 * side + 1][j]];
+        if pushes && space.grooves[side].cosine(meridian) < STEEPEST_COSINE {
             let angle_deg = contacts.contact_angle(space, j, side).to_degrees();
             return Err(StepError::TooSteep { element: j + 1, angle_deg, limit_deg: STEEPEST, since });
         }

@@ -61,9 +61,11 @@ impl<T: Scalar> BallForces<T> {
         self.contacts.map(|contact| self.ball.on_ring(&contact.on_ball))
     }
 
-    /// Torques about the axis on the bodies whose defects are under its contacts (N m).
+    /// Torques on the bodies whose defects are under its contacts, about the axis of the ring at each contact (N m).
     pub(in crate::dynamics) fn torques(&self) -> impl Iterator<Item = (Frame, T)> {
-        self.contacts.into_iter().filter_map(|contact| contact.frame.map(|frame| (frame, contact.on_ball.moment[2])))
+        let axes = [self.ball.seen.0.axis.direction, self.ball.seen.1.axis.direction];
+        let about = |(contact, axis): (BallContact<T>, _)| Some((contact.frame?, dot(contact.on_ball.moment, axis)));
+        self.contacts.into_iter().zip(axes).filter_map(about)
     }
 }
 
@@ -176,10 +178,12 @@ impl Model {
         seen: &Seen<T>,
         shortcuts: &mut Shortcuts,
     ) -> BallContact<T> {
-        let place = Place::of(&space.grooves[side as usize], seen);
+        let groove = &space.grooves[side as usize];
+        let place = Place::of(groove, seen);
         let (contact, closing) = (&place.contact, place.closing());
         let damping = T::Plain::from(space.across_damping);
-        if cells == [SMOOTH; 2] {
+        let is_open = groove.cosine(contact.meridian).value() <= 0.0;
+        if cells == [SMOOTH; 2] || is_open {
             let force = law.law.force(contact.approach, closing);
             let (on_ball, approach) = (place.presses(force, force, damping), contact.approach);
             return BallContact { place, on_ball, approach, rate: closing, magnitude: force, frame: None };
@@ -194,7 +198,7 @@ impl Model {
         let (near, by_across) = near.unwrap_or_else(|_| (beyond(), None));
         let mut rate = near.rate([closing, turning], &at.frames);
         // ∂Δ/∂t: how far the contact goes across the groove as the ball moves along t, times ∂Δ/∂η.
-        let by_t = by_across.map(|by_across| by_across * space.grooves[side as usize].run_across(contact.approach));
+        let by_t = by_across.map(|by_across| by_across * groove.run_across(contact.approach));
         if let Some(by_t) = by_t {
             rate += by_t * dot(contact.across, place.velocity);
         }

@@ -116,7 +116,8 @@ impl Touch {
         let far = radial.hypot(axial);
         self.angle = axial.atan2(radial);
         self.approach = far - groove.touching - sunk;
-        if self.approach <= 0.0 {
+        // Beyond 90 degrees the circle is no part of the groove.
+        if self.approach <= 0.0 || radial <= 0.0 {
             return self;
         }
         let [normal, sideways] = self.normal_and_across();

@@ -12,8 +12,11 @@ use std::f64::consts::{PI, TAU};
 /// A scene with three or five degrees of freedom whose balls all have a place: pressed along the axis, or held.
 pub fn random(draw: &mut Draw) -> SpatialCase {
     let mut case = bearing(draw);
-    // About a thousandth of a ball's radius deep.
-    let force = 1.5e3 * (case.diameter_mm / 8.0).powi(2) * draw.log(0.02, 1.0);
+    // Of steel about a thousandth of a ball's radius deep, and of what is softer no deeper; a quarter carry next to
+    // nothing.
+    let light = if draw.chance(0.25) { 1e-3 } else { 1.0 };
+    let soft = (case.modulus_gpa / 207.0).min(1.0);
+    let force = 1.5e3 * soft * (case.diameter_mm / 8.0).powi(2) * draw.log(0.02, 1.0) * light;
     let sense = match case.setting {
         AxialSetting::Angle(angle) => angle.signum(),
         _ => draw.sign(),
@@ -25,7 +28,7 @@ pub fn random(draw: &mut Draw) -> SpatialCase {
             case.gyroscopic = draw.pick(&[Gyroscopic::Outer, Gyroscopic::Shared]);
         }
     }
-    let approach = 2.0 * (2.0 * force / (case.count as f64 * 2e10)).cbrt().powi(2);
+    let approach = 2.0 * (2.0 * force / (case.count as f64 * soft * 2e10)).cbrt().powi(2);
     defects::add(draw, &mut case, approach);
     let length = draw.log(5e-5, 4e-4);
     let mut moves = [[[0.0; 3]; 5]; 2];
@@ -49,8 +52,11 @@ fn bearing(draw: &mut Draw) -> SpatialCase {
     let conformities = [0, 1].map(|_| draw.between(0.51, 0.55));
     let distance_um = (conformities[0] + conformities[1] - 1.0) * diameter_mm * 1e3;
     let setting = match draw.below(4) {
+        // So loose that balls come to lie beyond the far groove's centres, if they are not pressed along the axis.
+        0 if draw.chance(0.5) => AxialSetting::Radial(draw.between(0.2, 0.49) * distance_um),
         0 => AxialSetting::Radial(draw.between(-2e-4, 5e-3) * diameter_mm * 1e3),
         1 => AxialSetting::Play(draw.between(0.02, 0.8) * distance_um),
+        2 => AxialSetting::Angle(draw.between(45.0, 60.0) * draw.sign()),
         _ => AxialSetting::Angle(draw.between(8.0, 40.0) * draw.sign()),
     };
     let steel = draw.chance(0.7);
@@ -64,7 +70,7 @@ fn bearing(draw: &mut Draw) -> SpatialCase {
         setting,
         operating_deg: draw.chance(0.6).then(|| draw.between(-35.0, 35.0)),
         shoulders_mm: conformities.map(|f| draw.chance(0.3).then(|| f * diameter_mm * draw.between(0.1, 0.7))),
-        modulus_gpa: if steel { 207.0 } else { draw.log(70.0, 400.0) },
+        modulus_gpa: if steel { 207.0 } else { draw.log(2.0, 400.0) },
         poisson: if steel { 0.3 } else { draw.between(0.15, 0.4) },
         mass_g: draw.chance(0.2).then(|| 4e-3 * diameter_mm.powi(3) * draw.log(0.3, 3.0)),
         hertz: [0, 1].map(|_| draw.chance(0.1).then(|| draw.log(5e9, 5e10))),
