@@ -39,7 +39,7 @@ pub struct Control {
 const CLOSEST_CHANGE: f64 = 1e-4;
 /// Tolerance from which on a step that error control accepts need not land on a contact change. The estimate sees
 /// little of a force that begins within the step, as the power 1.5 of time, and at smaller tolerances that would be the
-/// largest error; here it is below those of impacts (docs/how-to/step.md has both by scene).
+/// largest error; here it is below those of impacts.
 const PASSES_CHANGES: f64 = 1e-3;
 /// Share of the wanted step below which a step has been cut short.
 const SHORT: f64 = 0.8;
