@@ -1,39 +1,45 @@
-//! `fmi2-conformance.md` and `fmi3-conformance.md` in `docs/evidence`: each rule has a test, or a measurement.
+//! `fmi2-rules.csv` and `fmi3-rules.csv` in `docs/data`: each rule of the standard has a test, or a measurement.
 //! A test that fails fails the suite that this belongs to.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
 
-/// What is wrong with the evidence of a rule.
-fn fault(shown: &str, result: &str) -> Option<String> {
-    if shown.is_empty() || result.is_empty() {
-        return Some("neither test nor measurement".to_owned());
-    }
-    shown.split("<br>").find_map(|one| {
-        if one.starts_with('`') {
-            // A command, whose figure is the result.
-            return (result == "passes").then(|| format!("{one} without a figure"));
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+struct Rule {
+    rule: String,
+    /// `file: test` or a command, between semicolons.
+    shown_by: String,
+    result: String,
+}
+
+impl Rule {
+    /// What is wrong with its evidence.
+    fn fault(&self) -> Option<String> {
+        if self.shown_by.is_empty() || self.result.is_empty() {
+            return Some("neither test nor measurement".to_owned());
         }
-        let link = one.strip_prefix("[`").and_then(|rest| rest.strip_suffix(')')?.split_once("`](../../"));
-        let Some((name, file)) = link else { return Some(format!("{one} is no link to a test")) };
-        let text = fs::read_to_string(brinell_tests::root().join(file)).unwrap_or_default();
-        (!text.contains(&format!("fn {name}("))).then(|| format!("no test {name} in {file}"))
-    })
+        self.shown_by.split("; ").find_map(|one| {
+            let Some((file, name)) = one.split_once(".rs: ") else {
+                // A command, whose figure is the result.
+                return (self.result == "passes").then(|| format!("{one} without a figure"));
+            };
+            let text = fs::read_to_string(brinell_tests::root().join(format!("{file}.rs"))).unwrap_or_default();
+            (!text.contains(&format!("fn {name}("))).then(|| format!("no test {name} in {file}.rs"))
+        })
+    }
 }
 
 #[test]
 fn every_rule_of_the_standard_has_a_test_or_a_measurement() {
-    for (page, fewest) in [("fmi2-conformance.md", 60), ("fmi3-conformance.md", 30)] {
-        let text = fs::read_to_string(brinell_tests::root().join("docs/evidence").join(page)).unwrap();
-        let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| rule "));
-        let mut rules = 0;
-        for row in rows {
-            let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
-            let [rule, shown, result] = cells[..] else { panic!("{page}: three cells in: {row}") };
-            let fault = fault(shown, result);
-            assert!(fault.is_none(), "{page}: {rule} {}", fault.unwrap());
-            rules += 1;
+    for (table, fewest) in [("fmi2-rules.csv", 60), ("fmi3-rules.csv", 30)] {
+        let path = brinell_tests::root().join("docs/data").join(table);
+        let rules: Vec<Rule> = csv::Reader::from_path(path).unwrap().deserialize().map(Result::unwrap).collect();
+        for rule in &rules {
+            let fault = rule.fault();
+            assert!(fault.is_none(), "{table}: {} {}", rule.rule, fault.unwrap());
         }
-        assert!(rules >= fewest, "{page}: {rules} rules");
+        assert!(rules.len() >= fewest, "{table}: {} rules", rules.len());
     }
 }

@@ -22,14 +22,23 @@ pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integ
         let costs = columns.iter().map(|&(level, method)| cheapest(rows, &check.scene, method, level));
         std::iter::once(check.scene.clone()).chain(costs).collect::<Vec<_>>()
     };
-    let automatic = rows.iter().filter(|row| row.method == "automatic");
+    let automatic: Vec<&Row> = rows.iter().filter(|row| row.method == "automatic").collect();
+    let mut settings: Vec<f64> = automatic.iter().map(|row| row.setting).collect();
+    settings.sort_by(|a, b| b.total_cmp(a));
+    settings.dedup();
+    let tolerances = |check: &Check| {
+        let of_scene = |setting: f64| automatic.iter().find(|row| row.scene == check.scene && row.setting == setting);
+        let cell = |&setting: &f64| of_scene(setting).map_or("–".to_owned(), |row| tolerance_cell(row));
+        std::iter::once(check.scene.clone()).chain(settings.iter().map(cell)).collect::<Vec<_>>()
+    };
     let values = context! {
         machine,
         milliseconds => format!("{:.0}", 1e3 * stop),
         contacts => contacts.iter().map(contact_row).collect::<Vec<_>>(),
         levels => columns.iter().map(|(level, method)| format!("{method}, {level:.0e}")).collect::<Vec<_>>(),
         cheapest => checks.iter().map(costs).collect::<Vec<_>>(),
-        tolerances => automatic.map(tolerance_row).collect::<Vec<_>>(),
+        settings => settings.iter().map(|setting| format!("{setting:.0e}")).collect::<Vec<_>>(),
+        tolerances => checks.iter().map(tolerances).collect::<Vec<_>>(),
         checks => checks.iter().map(check_row).collect::<Vec<_>>(),
     };
     render("error-vs-run-time.md", include_str!("../../assets/error-vs-run-time.md"), values)
@@ -48,13 +57,8 @@ fn contact_row(row: &contact::Row) -> Vec<String> {
     cells
 }
 
-fn tolerance_row(row: &Row) -> Vec<String> {
-    let (steps, implicit) = (format!("{:.0}", row.steps), format!("{:.0} %", 100.0 * row.implicit));
-    let mut cells =
-        vec![row.scene.clone(), format!("{:.0e}", row.setting), cost(row.cost), cost(row.in_program), steps, implicit];
-    let d = row.deviation;
-    cells.extend([d.acceleration_rms, d.acceleration_max, d.path_rms, d.path_max].map(short));
-    cells
+fn tolerance_cell(row: &Row) -> String {
+    format!("{}, {} s", short(row.deviation.acceleration_rms), cost(row.cost))
 }
 
 fn check_row(check: &Check) -> Vec<String> {
