@@ -1,7 +1,7 @@
 //! The extremes: loads, speeds, masses, clearances, defects, jumps and communication steps far from usual, each against
 //! a closed form, or an oracle, or to be refused clearly.
 //!
-//! Each case gives a row of `docs/evidence/stability.md`. To write its tables anew:
+//! Each case gives a row of `docs/data/extremes.csv`. To write it and the tables of `docs/evidence/stability.md` anew:
 //! `cargo test --workspace --release --test extremes -- --ignored write`.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, unreachable_pub)]
@@ -30,15 +30,15 @@ macro_rules! extremes {
         })*
 
         /// Every case, in order.
-        fn rows($kind: Kind) -> String {
-            [$($name($kind)),*].iter().map(Row::line).collect()
+        fn rows($kind: Kind) -> Vec<Row> {
+            vec![$($name($kind)),*]
         }
 
         mod balls {
             $(#[test]
             $(#[$attribute])*
             fn $name() {
-                print!("{}", super::$name(super::BALLS).line());
+                print!("{}", super::$name(super::BALLS));
             })*
         }
 
@@ -46,7 +46,7 @@ macro_rules! extremes {
             $(#[test]
             $(#[$attribute])*
             fn $name() {
-                print!("{}", super::$name(super::ROLLERS).line());
+                print!("{}", super::$name(super::ROLLERS));
             })*
         }
     };
@@ -135,11 +135,15 @@ extremes! {
 }
 
 #[test]
-#[ignore = "writes tables of docs/evidence/stability.md"]
+#[ignore = "writes docs/data/extremes.csv and tables of docs/evidence/stability.md"]
 fn write_the_table_of_stability() {
-    const HEAD: &str =
-        "| what | expected | got | error, and allowed | steps | method chosen |\n|---|---|---|---:|---:|---|\n";
-    let rows = [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", oracle::in_space::rows())];
-    let rows = rows.map(|(name, rows)| (name, HEAD.to_owned() + &rows));
-    brinell_tests::page::write("docs/evidence/stability.md", rows.into_iter().chain(predictability::tables()));
+    let mut table = csv::Writer::from_path(brinell_tests::root().join("docs/data/extremes.csv")).unwrap();
+    table.write_record(["bearing"].into_iter().chain(row::COLUMNS)).unwrap();
+    for (bearing, rows) in [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", oracle::in_space::rows())] {
+        for row in rows {
+            table.write_record([bearing.to_owned()].into_iter().chain(row.cells())).unwrap();
+        }
+    }
+    table.flush().unwrap();
+    brinell_tests::page::write("docs/evidence/stability.md", predictability::tables());
 }

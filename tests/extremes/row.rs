@@ -1,7 +1,11 @@
-//! One row of `docs/evidence/stability.md`.
+//! One row of `docs/data/extremes.csv`.
 
 use crate::support::Named;
 use brinell::simulation::StepCounts;
+use std::fmt::{self, Display, Formatter};
+
+/// Of a row, behind the kind of bearing.
+pub const COLUMNS: [&str; 6] = ["what", "expected", "got", "error_of_allowed", "steps", "method"];
 
 /// What was expected of an extreme, and what came.
 pub struct Row {
@@ -32,9 +36,15 @@ impl Row {
         }
     }
 
-    /// As a line of a Markdown table.
-    pub fn line(&self) -> String {
-        let Self { what, expected, got, error, steps } = self;
-        format!("| {what} | {expected} | {got} | {error} | {} | {} |\n", steps.all, self.method())
+    /// What is in [`COLUMNS`].
+    pub fn cells(&self) -> [String; 6] {
+        let [what, expected, got, error] = [&self.what, &self.expected, &self.got, &self.error].map(String::clone);
+        [what, expected, got, error, self.steps.all.to_string(), self.method()]
+    }
+}
+
+impl Display for Row {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        writeln!(f, "{}", self.cells().join(" | "))
     }
 }

@@ -1,4 +1,4 @@
-//! What many random scenes came to: the section of `docs/evidence/stability.md`.
+//! What many random scenes came to: the summary on `docs/evidence/stability.md` and `docs/data/random-scenes.csv`.
 
 use super::commands::Compared;
 use super::judge::{Measure, Verdict};
@@ -6,7 +6,7 @@ use crate::random_case::Kind;
 use crate::subject::Refusal;
 use brinell::simulation::SimulationError;
 use std::collections::BTreeMap;
-use std::fmt::{self, Display, Formatter, Write};
+use std::fmt::{self, Display, Formatter};
 
 /// What came of one scene. As text it is a line of fields between tabs, so that a long run can be broken off and taken
 /// up.
@@ -29,6 +29,10 @@ pub enum Came {
     Failed(String),
 }
 
+/// Of the table: differences are of any force, over the largest, and have four quantiles.
+pub const COLUMNS: [&str; 8] = ["group", "name", "scenes", "median", "q90", "q99", "worst", "example"];
+/// What is drawn, in the order of an entry's names.
+const GROUPS: [&str; 7] = ["defect on", "defect", "rings", "outer ring", "speed", "elements", "bodies"];
 /// Quantiles that are shown.
 const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
 
@@ -120,9 +124,32 @@ impl<'a> Tally<'a> {
         self.agreed.len()
     }
 
-    /// The tables.
-    pub fn markdown(&self) -> String {
-        let (mut refused, mut undecided) = (BTreeMap::<_, (usize, &str)>::new(), BTreeMap::<_, usize>::new());
+    /// How many agreed, and how well.
+    pub fn summary(&self) -> String {
+        let (refused, undecided) = self.left_out();
+        let whole = self.agreed.iter().filter(|(_, measure)| measure.judged > 0.999).count();
+        let count = |which: usize| self.entries.iter().filter(|entry| entry.compared[which]).count();
+        let worst = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.units));
+        let mut starts: Vec<f64> = self.agreed.iter().map(|(_, measure)| measure.start).collect();
+        starts.sort_unstable_by(f64::total_cmp);
+        let [median, most] = [0.5, 0.99].map(|share| starts.get(place(share, starts.len())).copied().unwrap_or(0.0));
+        let rows = [
+            ("scenes", self.entries.len().to_string()),
+            ("agreed", format!("{}, of which {whole} to their end, the others until bounces", self.agreed.len())),
+            ("**failed**", self.failed().len().to_string()),
+            ("refused with an error", refused.values().map(|entry| entry.0).sum::<usize>().to_string()),
+            ("the oracle could not judge the first step", undecided.values().sum::<usize>().to_string()),
+            ("`stiffness`; its critical load; `modes` compared", [0, 1, 2].map(|i| count(i).to_string()).join("; ")),
+            ("forces of the start, over the largest: median, 99 %", format!("{median:.0e}, {most:.0e}")),
+            ("worst difference later, in units", format!("{worst:.0} of {} allowed", crate::units::LIMIT)),
+        ];
+        let lines = rows.map(|(what, count)| format!("| {what} | {count} |\n")).concat();
+        format!("| | |\n|---|---:|\n{lines}")
+    }
+
+    /// Scenes that were refused, with an example of the error, and those that the oracle could not judge.
+    fn left_out(&self) -> (BTreeMap<&str, (usize, &str)>, BTreeMap<&str, usize>) {
+        let (mut refused, mut undecided) = (BTreeMap::<&str, (usize, &str)>::new(), BTreeMap::<&str, usize>::new());
         for entry in self.entries {
             match &entry.came {
                 Came::Refused(class, text) => refused.entry(class).or_insert((0, text)).0 += 1,
@@ -130,67 +157,28 @@ impl<'a> Tally<'a> {
                 Came::Agreed(_) | Came::Failed(_) => {}
             }
         }
-        let mut text = format!(
-            "Of {} scenes {} agreed, {} failed, {} were refused with an error, and of {} the oracle could not judge \
-             even the first step.\n\n",
-            self.entries.len(),
-            self.agreed.len(),
-            self.failed().len(),
-            refused.values().map(|entry| entry.0).sum::<usize>(),
-            undecided.values().sum::<usize>()
-        );
-        let whole = self.agreed.iter().filter(|(_, measure)| measure.judged > 0.999).count();
-        writeln!(text, "{whole} were judged to their end, the others until bounces let nobody say more.\n").unwrap();
-        let count = |which: usize| self.entries.iter().filter(|entry| entry.compared[which]).count();
-        writeln!(
-            text,
-            "The numbers of the commands were the oracle's as well: load distribution and stiffness of {} scenes, \
-             critical loads of {}, modes of {}, and characteristic frequencies of all.\n",
-            count(0),
-            count(1),
-            count(2)
-        )
-        .unwrap();
-        self.errors(&mut text);
-        text += "| refused, or not judged | scenes | for example |\n|---|---:|---|\n";
-        for (class, (count, example)) in refused {
-            writeln!(text, "| {class} | {count} | {} |", example.replace('|', "/")).unwrap();
-        }
-        for (why, count) in undecided {
-            writeln!(text, "| not judged: {why} | {count} | |").unwrap();
-        }
-        text
+        (refused, undecided)
     }
 
-    /// How far the scenes that agreed are from the oracle.
-    fn errors(&self, text: &mut String) {
-        *text += "| tolerance | scenes | difference of any force over the largest: median | 90 % | 99 % | worst |\n";
-        *text += "|---:|---:|---:|---:|---:|---:|\n";
+    /// Differences of forces over the largest by what is drawn, and what was refused: rows of [`COLUMNS`].
+    pub fn table(&self) -> Vec<[String; 8]> {
+        let mut rows = Vec::new();
         for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
-            self.row(text, &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance);
+            rows.extend(self.row("tolerance", &format!("{tolerance:.0e}"), |entry| entry.tolerance == tolerance));
         }
-        for (title, columns) in [("defect on", 0..1), ("defect", 1..2), ("rings; speed", 2..5), ("elements", 5..7)] {
-            *text +=
-                &format!("\n| {title} | scenes | median | 90 % | 99 % | worst |\n|---|---:|---:|---:|---:|---:|\n");
-            for which in columns {
-                for name in self.names(which) {
-                    self.row(text, name, |entry| entry.names[which] == name);
-                }
+        for (which, group) in GROUPS.into_iter().enumerate() {
+            for name in self.names(which) {
+                rows.extend(self.row(group, name, |entry| entry.names[which] == name));
             }
         }
-        let worst = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.units));
-        let mut starts: Vec<f64> = self.agreed.iter().map(|(_, measure)| measure.start).collect();
-        starts.sort_unstable_by(f64::total_cmp);
-        let [median, most] = [0.5, 0.99].map(|share| starts.get(place(share, starts.len())).copied().unwrap_or(0.0));
-        writeln!(
-            text,
-            "\nThe forces of the start are the oracle's to {median:.0e} of the largest in half of the scenes and to \
-             {most:.0e} in 99 % of them; the largest differences are those of straight rollers that are just \
-             touched, with less force than the rounding of their place makes. The worst difference later is \
-             {worst:.0} units of {} allowed.\n",
-            crate::units::LIMIT
-        )
-        .unwrap();
+        let (refused, undecided) = self.left_out();
+        let row = |group: &str, name: &str, count: usize, example: &str| {
+            let [a, b, c, d] = [(); 4].map(|()| String::new());
+            [group.to_owned(), name.to_owned(), count.to_string(), a, b, c, d, example.to_owned()]
+        };
+        rows.extend(refused.into_iter().map(|(class, (count, example))| row("refused", class, count, example)));
+        rows.extend(undecided.into_iter().map(|(why, count)| row("not judged", why, count, "")));
+        rows
     }
 
     fn names(&self, which: usize) -> Vec<&'a str> {
@@ -200,18 +188,14 @@ impl<'a> Tally<'a> {
         names
     }
 
-    fn row(&self, text: &mut String, name: &str, belongs: impl Fn(&Entry) -> bool) {
+    fn row(&self, group: &str, name: &str, belongs: impl Fn(&Entry) -> bool) -> Option<[String; 8]> {
         let found = self.agreed.iter().filter(|(entry, _)| belongs(entry));
         let mut errors: Vec<f64> = found.map(|(_, measure)| measure.error).collect();
         errors.sort_unstable_by(f64::total_cmp);
-        if errors.is_empty() {
-            return;
-        }
-        write!(text, "| {name} | {} |", errors.len()).unwrap();
-        for quantile in QUANTILES {
-            write!(text, " {:.0e} |", errors[place(quantile, errors.len())]).unwrap();
-        }
-        text.push('\n');
+        let [a, b, c, d] = QUANTILES.map(|quantile| errors.get(place(quantile, errors.len())));
+        let text = |error: Option<&f64>| error.map(|error| format!("{error:.0e}"));
+        let count = errors.len().to_string();
+        Some([group.to_owned(), name.to_owned(), count, text(a)?, text(b)?, text(c)?, text(d)?, String::new()])
     }
 }
 
