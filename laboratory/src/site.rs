@@ -11,12 +11,13 @@ use anyhow::{Context, Result, bail};
 use fmu_build::shared::{Project, whole_file};
 
 /// Chapters: a heading, the folder of its pages, and those of them that come first, in this order.
-const CHAPTERS: [(&str, &str, &[&str]); 6] = [
+const CHAPTERS: [(&str, &str, &[&str]); 7] = [
     ("First hours", "tutorials", &["catalogue.md", "recording.md", "data-set.md", "rotor.md"]),
     ("How to", "how-to", &["hosting.md", "step.md", "defects.md", "sensors.md", "runs.md", "sweeps.md", "sizing.md"]),
     ("Reference", "reference", &["scenes.md", "keys.md", "symbols.md", "variables.md", "commands.md"]),
     ("Explanation", "explanation", &["model.md", "theory.md", "axial.md", "contact.md"]),
     ("Evidence", "evidence", &["validation.md"]),
+    ("Data", "data", &[]),
     ("Behind it", "", &[]),
 ];
 /// Pages above `docs/`, with their names in the book.
@@ -57,6 +58,7 @@ pub fn lay_out(source: &Path, folder: &Path) -> Result<()> {
         whole_file::write(&pages.join(page), read(name)?.replace("docs/", ""))?;
     }
     bring_what_is_linked(source, &pages)?;
+    show_data(&pages)?;
     whole_file::write(&pages.join("SUMMARY.md"), contents(&pages)?)?;
     Ok(())
 }
@@ -81,6 +83,38 @@ fn bring_what_is_linked(source: &Path, pages: &Path) -> Result<()> {
             }
         }
         fs::write(&page, text)?;
+    }
+    Ok(())
+}
+
+/// Tables of `data/` become pages, and links to them lead there.
+fn show_data(pages: &Path) -> Result<()> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(pages.join("data"))? {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let cell = |text: &str| text.replace('|', "\\|");
+        let line = |cells: &csv::StringRecord| {
+            let cells: Vec<String> = cells.iter().map(cell).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let mut table = csv::Reader::from_path(&path).with_context(|| name.clone())?;
+        let head = table.headers()?.clone();
+        let mut text = format!("# {name}\n\n[The file]({name})\n\n{}{}|\n", line(&head), "|---".repeat(head.len()));
+        for record in table.records() {
+            text += &line(&record?);
+        }
+        fs::write(path.with_extension("md"), text)?;
+        names.push(name);
+    }
+    for page in markdown(pages)?.iter().filter(|page| !page.starts_with(pages.join("data"))) {
+        let text = fs::read_to_string(page)?;
+        let linked = names.iter().fold(text.clone(), |text, name| {
+            text.replace(&format!("data/{name})"), &format!("data/{})", name.replace(".csv", ".md")))
+        });
+        if linked != text {
+            fs::write(page, linked)?;
+        }
     }
     Ok(())
 }
