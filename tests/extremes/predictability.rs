@@ -154,13 +154,9 @@ fn oil([dry, oiled]: [&Run; 2]) -> String {
     let [dry, oiled] = [("er16k-tb1", TOLERANCES[2]), ("er16k-tb1-oil", TOLERANCES[2])]
         .map(|(scene, tolerance)| Run::of(scene, tolerance, 0.0).steps);
     format!(
-        "A contact counts as begun here where its force begins, which with oil is where the gap begins to close: the \
-         outer\n\
-         raceway is felt {:.1} ms before it is touched. What the loaded elements do hardly changes. Steps are fewer, \
-         as\n\
-         nothing bounces: {} over 0.1 s at the default tolerance, {} of them refused, where the dry bearing takes {} \
-         and\n\
-         refuses {}.\n",
+        "With oil the force of a contact begins where the gap begins to close, {:.1} ms before the outer raceway is\n\
+         touched. Loaded elements hardly change. A run takes fewer steps, because nothing bounces: {} in 0.1 s at the\n\
+         default tolerance, {} of them rejected; the dry bearing takes {} and rejects {}.\n",
         1e3 * (before - after),
         oiled[0],
         oiled[1],
@@ -180,8 +176,8 @@ pub fn tables() -> [(&'static str, String); 3] {
     let mut dry = growth([&exact, &moved]);
     writeln!(
         dry,
-        "\nFrom 5 to 50 ms that is ten times every {milliseconds:.1} ms, or every {contacts:.0} contacts begun by any \
-         of the elements; after it the paths differ by as much as the play lets them."
+        "\nFrom 5 to 50 ms the difference grows tenfold every {milliseconds:.1} ms, or every {contacts:.0} contacts \
+         begun. Later the paths differ by the whole play."
     )
     .unwrap();
     let oiled = [0.0, 1e-12].map(|moved| Run::of("er16k-tb1-oil", TIGHTEST, moved));
