@@ -139,7 +139,8 @@ extremes! {
 fn write_the_table_of_stability() {
     let mut table = csv::Writer::from_path(brinell_tests::root().join("docs/data/extremes.csv")).unwrap();
     table.write_record(["bearing"].into_iter().chain(row::COLUMNS)).unwrap();
-    for (bearing, rows) in [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", oracle::in_space::rows())] {
+    let in_space = oracle::in_space::rows();
+    for (bearing, rows) in [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", in_space)] {
         for row in rows {
             table.write_record([bearing.to_owned()].into_iter().chain(row.cells())).unwrap();
         }
