@@ -95,6 +95,13 @@ impl Display for Entry {
     }
 }
 
+/// Scenes without a comparison, by class of error with an example, and by reason.
+#[derive(Default)]
+struct LeftOut<'a> {
+    refused: BTreeMap<&'a str, (usize, &'a str)>,
+    undecided: BTreeMap<&'a str, usize>,
+}
+
 /// What came of all scenes.
 pub struct Tally<'a> {
     entries: &'a [Entry],
@@ -126,7 +133,7 @@ impl<'a> Tally<'a> {
 
     /// How many agreed, and how well.
     pub fn summary(&self) -> String {
-        let (refused, undecided) = self.left_out();
+        let LeftOut { refused, undecided } = self.left_out();
         let whole = self.agreed.iter().filter(|(_, measure)| measure.judged > 0.999).count();
         let count = |which: usize| self.entries.iter().filter(|entry| entry.compared[which]).count();
         let worst = self.agreed.iter().fold(0.0f64, |m, (_, measure)| m.max(measure.units));
@@ -148,16 +155,16 @@ impl<'a> Tally<'a> {
     }
 
     /// Scenes that were refused, with an example of the error, and those that the oracle could not judge.
-    fn left_out(&self) -> (BTreeMap<&str, (usize, &str)>, BTreeMap<&str, usize>) {
-        let (mut refused, mut undecided) = (BTreeMap::<&str, (usize, &str)>::new(), BTreeMap::<&str, usize>::new());
+    fn left_out(&self) -> LeftOut<'a> {
+        let mut left_out = LeftOut::default();
         for entry in self.entries {
             match &entry.came {
-                Came::Refused(class, text) => refused.entry(class).or_insert((0, text)).0 += 1,
-                Came::Undecided(why) => *undecided.entry(why).or_default() += 1,
+                Came::Refused(class, text) => left_out.refused.entry(class).or_insert((0, text)).0 += 1,
+                Came::Undecided(why) => *left_out.undecided.entry(why).or_default() += 1,
                 Came::Agreed(_) | Came::Failed(_) => {}
             }
         }
-        (refused, undecided)
+        left_out
     }
 
     /// Differences of forces over the largest by what is drawn, and what was refused: rows of [`COLUMNS`].
@@ -171,7 +178,7 @@ impl<'a> Tally<'a> {
                 rows.extend(self.row(group, name, |entry| entry.names[which] == name));
             }
         }
-        let (refused, undecided) = self.left_out();
+        let LeftOut { refused, undecided } = self.left_out();
         let row = |group: &str, name: &str, count: usize, example: &str| {
             let [a, b, c, d] = [(); 4].map(|()| String::new());
             [group.to_owned(), name.to_owned(), count.to_string(), a, b, c, d, example.to_owned()]
