@@ -13,7 +13,7 @@ use crate::run::noise::Noise;
 use crate::run::speed_profile::SpeedProfile;
 use crate::run::table::Format;
 use crate::run::wav::Wav;
-use crate::shared::{Grid, Kind, Names, Version, number, seed};
+use crate::shared::{Grid, Kind, Names, Version, number, rate, seed};
 
 /// Options of `build`.
 #[derive(Debug, Args)]
@@ -89,8 +89,8 @@ pub struct Run {
     /// Write what the sensors show as sound, through the recorder's filter against aliases
     #[arg(long)]
     pub(super) wav: bool,
-    /// Its samples per second [default: the scene's recorder's, or 51200]
-    #[arg(long, value_name = "HZ", requires = "wav", allow_negative_numbers = true, value_parser = number)]
+    /// Its samples per second, in hertz or as 51.2kHz [default: the scene's recorder's, or 51200]
+    #[arg(long, value_name = "HZ", requires = "wav", allow_negative_numbers = true, value_parser = rate)]
     pub(super) wav_rate: Option<f64>,
     /// Acceleration in m/s² that becomes 1 in it
     #[arg(

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use brinell::scene::{Bearing, Scene};
 use brinell::simulation::setup::with_operating_angle;
-use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
+use brinell_analysis::recording::{ENDINGS, Recording, Source, Speed, Stated, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
 use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
 use clap::Args;
@@ -18,9 +18,11 @@ use super::{new_scene, size_report};
 use crate::package::model::operating_angle;
 use crate::package::read_scene;
 use crate::shared::{
-    Drawn, Project, Python, contact_map, csv, delimiter, digits, html_file, note, number, speed, talk, whole,
-    whole_file,
+    Drawn, Project, contact_map, csv, delimiter, digits, html_file, note, number, rate, speed, talk, whole, whole_file,
 };
+
+/// Largest relative difference from a speed that the file states: more is no slip.
+const SAME_SPEED: f64 = 0.02;
 
 /// Where the shaft's speed comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,10 +47,10 @@ pub(crate) fn shaft_speed(text: &str) -> Result<ShaftSpeed, String> {
 
 /// Options of `size`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("shaft").required(true))]
+#[command(group = clap::ArgGroup::new("shaft"))]
 #[command(group = clap::ArgGroup::new("which").required(true))]
 pub struct Size {
-    /// Recordings of one bearing: .csv, .txt, .npy, .npz, .mat or .wav
+    /// Recordings of one bearing: .csv, .tsv, .txt, .lvm, .npy, .npz, .mat or .wav, or texts of any other name
     #[arg(required = true, value_name = "RECORDING")]
     recordings: Vec<PathBuf>,
     /// Scene file (TOML) of the bearing, its load and, if known, its rig; its defect is ignored
@@ -60,8 +62,8 @@ pub struct Size {
     /// Load of that bearing in newtons [default: 5 % of the static rating]
     #[arg(long, value_name = "N", requires = "bearing", allow_negative_numbers = true, value_parser = number)]
     load: Option<f64>,
-    /// Sampling rate in hertz [default: the file's own]
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
+    /// Sampling rate in hertz, or as in 51.2kHz [default: the file's own]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = rate)]
     rate: Option<f64>,
     /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas;
     /// LOW..HIGH seeks it by the shaft's own lines, and auto from 5 to 60 Hz
@@ -92,8 +94,8 @@ pub struct Size {
     /// Channel of the signal, by name or by number from 1, where a file has several
     #[arg(long, value_name = "NAME|NUMBER", alias = "column")]
     channel: Option<String>,
-    /// What stands between the columns of a text: a sign, tab or blank [default: a comma, of .txt blanks; a semicolon
-    /// with --decimal ,]
+    /// What stands between the columns of a text: a sign, tab or blank [default: of .csv a comma, of .tsv a tab, of
+    /// others blanks; a semicolon with --decimal ,; of .lvm what its header says]
     #[arg(long, value_name = "SIGN", value_parser = delimiter)]
     delimiter: Option<char>,
     /// Decimal sign of a text, a point or a comma [default: .]
@@ -121,6 +123,8 @@ impl Size {
             vec![ShaftSpeed::Stated(Speed::Tachometer(column.clone(), self.pulses))]
         } else if let Some(column) = &self.speed_column {
             vec![ShaftSpeed::Stated(Speed::Column(column.clone()))]
+        } else if self.speed.is_empty() {
+            vec![ShaftSpeed::Stated(Speed::Unknown)]
         } else {
             self.speed.clone()
         }
@@ -162,9 +166,7 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
         whole_file::write(path, size_report::page(&report, &recordings, &scene, &found(&report))?)?;
         eprintln!("{}", path.display());
     }
-    if !options.drawn.no_figure {
-        Python::draw(project, "size.py", &stems);
-    }
+    eprint!("{}", options.drawn.figure(project, "size.py", &stems, &stems)?);
     Ok(())
 }
 
@@ -182,11 +184,35 @@ fn read(options: &Size, speeds: &[ShaftSpeed], bearing: &Bearing) -> Result<Vec<
         };
         let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text };
         let recording = Recording::read(path, &source)?;
-        let ShaftSpeed::Sought(limits) = speed else { return Ok(recording) };
-        let found = find_speed(recording.name(), recording.samples(), recording.rate(), bearing, *limits)?;
-        Ok(recording.at_speed(found)?)
+        let recording = match speed {
+            ShaftSpeed::Stated(_) => recording,
+            ShaftSpeed::Sought(limits) => {
+                let found = find_speed(recording.name(), recording.samples(), recording.rate(), bearing, *limits)?;
+                recording.at_speed(found)?
+            }
+        };
+        tell(&recording);
+        Ok(recording)
     });
     recordings.collect()
+}
+
+/// How a file was read, and whether it states another speed than what is used.
+fn tell(recording: &Recording) {
+    for remark in recording.remarks() {
+        note!("note: {remark}");
+    }
+    let other = |stated: &&Stated| !((recording.speed() / stated.hertz - 1.0).abs() <= SAME_SPEED);
+    if let Some(stated) = recording.stated_speed().filter(other) {
+        note!(
+            "warning: {}: it has {} = {}, a shaft at {} Hz, and is sized at {} Hz: which is right?",
+            recording.name(),
+            stated.name,
+            stated.value,
+            digits(stated.hertz),
+            digits(recording.speed())
+        );
+    }
 }
 
 /// Which part, how long, how far to rely on it.
@@ -233,7 +259,11 @@ fn part(fault: Fault) -> &'static str {
 fn write(report: &Report, folder: &Path) -> Result<Vec<PathBuf>> {
     let mut stems: Vec<PathBuf> = Vec::new();
     for (figure, recording) in report.figures.iter().zip(&report.recordings) {
-        let name = Path::new(&figure.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        // Of names that are dates the last part is no ending.
+        let named = Path::new(&figure.name);
+        let ends = named.extension().is_some_and(|end| ENDINGS.iter().any(|known| end.eq_ignore_ascii_case(known)));
+        let name = if ends { named.file_stem() } else { Some(named.as_os_str()) };
+        let name = name.unwrap_or_default().to_string_lossy().into_owned();
         // Never the recording's own name: the folder may be its own.
         let mut stem = folder.join(format!("{name}-size"));
         // Recordings of one name from several folders.

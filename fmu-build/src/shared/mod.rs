@@ -20,6 +20,6 @@ pub use python::Python;
 pub use talk::bar;
 pub use whole_file::NotWritten;
 
-pub(crate) use numbers::{delimiter, digits, gigapascals, html_file, number, seed, speed, whole};
+pub(crate) use numbers::{delimiter, digits, gigapascals, html_file, number, rate, seed, speed, whole};
 pub(crate) use project::Drawn;
 pub(crate) use talk::{detail, note};

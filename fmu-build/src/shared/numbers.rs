@@ -28,6 +28,17 @@ pub(crate) fn gigapascals(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "it must be a number of GPa from 1 to 20".to_owned())
 }
 
+/// A rate in hertz: a number of them, or one with its unit, as `51.2kHz`.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    let text = text.trim().to_ascii_lowercase();
+    let units = [("khz", 1e3), ("mhz", 1e6), ("hz", 1.0)];
+    let (number, hertz) =
+        units.iter().find_map(|(unit, hertz)| Some((text.strip_suffix(unit)?, *hertz))).unwrap_or((&text, 1.0));
+    let value: f64 =
+        number.trim().parse().map_err(|_| "it must be a number of Hz, or of kHz as in 51.2kHz".to_owned())?;
+    Ok(value * hertz)
+}
+
 /// A speed in hertz: a number of them, or one with its unit.
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let text = text.trim().to_ascii_lowercase();
@@ -76,6 +87,11 @@ mod tests {
             ["29.95", "29.95 Hz", "1797rpm", "600 rev/min"].map(|text| speed(text).unwrap()),
             [29.95, 29.95, 1797.0 / 60.0, 10.0]
         );
+        assert_eq!(
+            ["51200", "51.2kHz", "51.2 khz", "51200 Hz", "0.0512MHz"].map(|text| rate(text).unwrap()),
+            [51_200.0; 5]
+        );
+        assert!(rate("kHz").is_err() && rate("51.2k").is_err() && rate("51,2kHz").is_err());
         assert!(speed("fast").is_err() && speed("rpm").is_err() && speed("10 m/s").is_err());
         assert_eq!(["tab", "\\t", "blank", ";"].map(|text| delimiter(text).unwrap()), ['\t', '\t', ' ', ';']);
         assert!(delimiter(";;").is_err() && delimiter("").is_err());

@@ -1,5 +1,6 @@
 //! Files: numbers that can be read in two ways, the recorder's own, files cut short.
 
+use super::matlab::{doubles, file};
 use super::{RATE, noise, npy, read_as, read_with, refused, wav};
 use brinell::simulation::Simulation;
 use brinell_analysis::recording::TextFormat;
@@ -32,16 +33,7 @@ fn decimal_commas_keep_their_fractions_where_they_are_asked_for() {
 #[test]
 fn matlabs_files_are_read_whole_and_refused_when_they_are_cut() {
     let samples = noise(500);
-    // Version 5: text, byte order, and one array of doubles.
-    let part = |kind: u32, data: &[u8]| {
-        let fill = vec![0; data.len().next_multiple_of(8) - data.len()];
-        [&kind.to_le_bytes(), &(data.len() as u32).to_le_bytes(), data, &fill].concat()
-    };
-    let data: Vec<u8> = samples.iter().flat_map(|x| x.to_le_bytes()).collect();
-    let shape: Vec<u8> = [500u32, 1].iter().flat_map(|n| n.to_le_bytes()).collect();
-    let inside =
-        [part(6, &[6, 0, 0, 0, 0, 0, 0, 0]), part(5, &shape), part(1, b"X097_DE_time"), part(9, &data)].concat();
-    let bytes = [&[b' '; 124][..], b"\0\x01IM", &part(14, &inside)].concat();
+    let bytes = file(&[doubles([500, 1], "X097_DE_time", &samples)]);
     let read = read_as("mat", &bytes, Some(RATE)).unwrap();
     assert_eq!(read.samples().len(), 500);
     for cut in 0..bytes.len() {

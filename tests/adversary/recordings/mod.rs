@@ -7,6 +7,8 @@ mod files;
 mod foreign;
 #[path = "../../support/machine.rs"]
 mod machine;
+mod matlab;
+mod public;
 mod signals;
 
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};

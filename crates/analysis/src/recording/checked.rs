@@ -5,11 +5,9 @@
 //! every sample. Its rate and speed are then those of the mean speed. Invalid where the speed changes much within one
 //! turn: resonances keep their frequency in time, not in angle, so that a run-up is smeared.
 
-use super::csv::TextFormat;
 use super::error::SizingError;
-use super::file::Table;
+use super::stated::Stated;
 use crate::statistics;
-use std::path::Path;
 
 /// Smallest range and largest magnitude of a signal: sums of squares stay numbers.
 const SMALLEST: f64 = 1e-100;
@@ -25,30 +23,6 @@ const NEARLY: f64 = 0.01;
 const STILL: f64 = 0.1;
 const STILL_RUN: usize = 3;
 
-/// Where the shaft's speed comes from. Columns are chosen by name, or by number from 1.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Speed {
-    /// Constant (Hz).
-    Constant(f64),
-    /// A tachometer column and its pulses per shaft turn.
-    Tachometer(String, u32),
-    /// A column of the speed at every sample, in Hz unless its heading says rpm, rev/min, 1/min or rad/s.
-    Column(String),
-}
-
-/// Which part of a file is the recording.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Source {
-    /// Sampling rate (Hz); may be left out where the file states it.
-    pub rate: Option<f64>,
-    /// Shaft speed.
-    pub speed: Speed,
-    /// Column of the signal, by name or number; without it, the only one that can be one.
-    pub signal: Option<String>,
-    /// How a text's numbers are written.
-    pub text: TextFormat,
-}
-
 /// A recording of acceleration, in any unit, at constant shaft speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
@@ -56,6 +30,8 @@ pub struct Recording {
     samples: Vec<f64>,
     rate: f64,
     speed: f64,
+    stated_speed: Option<Stated>,
+    remarks: Vec<String>,
 }
 
 impl Recording {
@@ -70,7 +46,7 @@ impl Recording {
         check_samples(&name, &samples)?;
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         let samples = samples.into_iter().map(|x| x - mean).collect();
-        Ok(Self { name, samples, rate, speed })
+        Ok(Self { name, samples, rate, speed, stated_speed: None, remarks: Vec::new() })
     }
 
     /// The same with a tachometer sampled beside the signal, of so many pulses per shaft turn.
@@ -122,51 +98,9 @@ impl Recording {
         Self::new(name, uniform.collect(), rate, rate / samples_per_turn)
     }
 
-    /// Reads a `.csv`, `.txt`, `.npy`, `.npz`, `.mat` or `.wav` file.
-    ///
-    /// # Errors
-    /// A file that cannot be read or understood, a rate that contradicts the file's own, and those of
-    /// [`new`](Self::new), [`with_tachometer`](Self::with_tachometer) and [`with_speeds`](Self::with_speeds).
-    pub fn read(path: &Path, source: &Source) -> Result<Self, SizingError> {
-        let bytes = std::fs::read(path).map_err(|cause| SizingError::File { path: path.to_owned(), cause })?;
-        Self::of_file(path, &bytes, source)
-    }
-
-    /// The same from what the file holds; its path says by its ending what that is.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    pub fn of_file(path: &Path, bytes: &[u8], source: &Source) -> Result<Self, SizingError> {
-        let table = Table::read(path, bytes, source.text)?;
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        let refuse = |why: String| SizingError::Format { path: path.to_owned(), why };
-        // Before it is compared: 0 is no other rate, but none.
-        source.rate.map_or(Ok(()), |rate| check_positive(&name, "sampling rate", rate))?;
-        let rate = match (source.rate, table.rate) {
-            (Some(given), Some(stated)) if !((given / stated - 1.0).abs() <= SAME_RATE) => {
-                return Err(SizingError::OtherRate { name, given, stated, limit: 100.0 * SAME_RATE });
-            }
-            (given, stated) => given.or(stated),
-        };
-        let rate = rate.ok_or_else(|| refuse("the file states no sampling rate: give one (rate, Hz)".to_owned()))?;
-        let beside = match &source.speed {
-            Speed::Constant(_) => None,
-            Speed::Tachometer(column, _) | Speed::Column(column) => Some(&**column),
-        };
-        let signal = table.signal(source.signal.as_deref(), beside.as_slice()).map_err(refuse)?;
-        match &source.speed {
-            Speed::Constant(speed) => Self::new(&name, signal, rate, *speed),
-            Speed::Tachometer(column, pulses) => {
-                let (_, tachometer) = table.column(column).map_err(refuse)?;
-                Self::with_tachometer(&name, &signal, tachometer, *pulses, rate)
-            }
-            Speed::Column(column) => {
-                let (heading, speeds) = table.column(column).map_err(refuse)?;
-                let unit = speed_unit(heading);
-                let hertz: Vec<f64> = speeds.iter().map(|speed| speed * unit).collect();
-                Self::with_speeds(&name, &signal, &hertz, rate)
-            }
-        }
+    /// The same with what its file says beside the signal.
+    pub(super) fn with_file(self, stated_speed: Option<Stated>, remarks: Vec<String>) -> Self {
+        Self { stated_speed, remarks, ..self }
     }
 
     /// The same of a shaft at another speed (Hz).
@@ -198,30 +132,26 @@ impl Recording {
         self.speed
     }
 
+    /// The shaft's speed as its file states it, by a number that stands beside the signal.
+    pub fn stated_speed(&self) -> Option<&Stated> {
+        self.stated_speed.as_ref()
+    }
+
+    /// What a user must know of how its file was read.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
     /// Duration (s).
     pub fn duration(&self) -> f64 {
         self.samples.len() as f64 / self.rate
     }
 }
 
-/// Largest relative difference between a rate that is given and the file's own.
-const SAME_RATE: f64 = 0.01;
 /// Fastest over slowest speed beyond which a recording is a run-up: resonances and events would smear.
 const WIDEST_SPEED_RANGE: f64 = 1.5;
 /// Fewest pulses that give a mean speed worth the name.
 const MIN_PULSES: usize = 4;
-
-/// Hz per unit of a column's heading.
-fn speed_unit(heading: &str) -> f64 {
-    let heading = heading.to_lowercase();
-    if ["rpm", "rev/min", "1/min"].iter().any(|unit| heading.contains(unit)) {
-        1.0 / 60.0
-    } else if heading.contains("rad/s") {
-        1.0 / std::f64::consts::TAU
-    } else {
-        1.0
-    }
-}
 
 fn check_beside(name: &str, samples: &[f64], other: &[f64]) -> Result<(), SizingError> {
     if other.len() == samples.len() {
@@ -231,7 +161,7 @@ fn check_beside(name: &str, samples: &[f64], other: &[f64]) -> Result<(), Sizing
 }
 
 /// Refuses a frequency (Hz) that is not above 0.
-fn check_positive(name: &str, quantity: &'static str, value: f64) -> Result<(), SizingError> {
+pub(super) fn check_positive(name: &str, quantity: &'static str, value: f64) -> Result<(), SizingError> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
@@ -372,7 +302,6 @@ mod tests {
         let run_up: Vec<f64> = (0..80_000).map(|i| 5.0 + time(i)).collect();
         let refused = Recording::with_speeds("made", &signal, &run_up, rate);
         assert!(matches!(refused, Err(SizingError::SpeedRange { .. })));
-        assert_eq!([speed_unit("shaft.speed [rad/s]") * TAU, speed_unit("n [rpm]") * 60.0, speed_unit("n")], [1.0; 3]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What a recording can be refused for. Each message names the quantity, its value and the limit.
 
-use crate::recording::Uneven;
+use crate::recording::{Stated, Uneven};
 use std::path::PathBuf;
 
 /// A recording that cannot be read or cannot be sized, whatever the bearing's state.
@@ -72,6 +72,14 @@ pub enum SizingError {
     #[error("{name}: {why}; give the speed, or other limits for it")]
     NoSpeed { name: String, why: String },
     /// The rate contradicts the file.
-    #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz: they may differ by {limit} %")]
-    OtherRate { name: String, given: f64, stated: f64, limit: f64 },
+    #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz{by}: they may differ by {limit} %")]
+    OtherRate { name: String, given: f64, stated: f64, by: String, limit: f64 },
+    /// Nobody has said how fast the shaft turns.
+    #[error("{name}: the shaft's speed is not said: give it with --speed, --tacho or --speed-column{}", offered(.offer))]
+    SpeedNotSaid { name: String, offer: Option<Stated> },
+}
+
+fn offered(stated: &Option<Stated>) -> String {
+    let line = |s: &Stated| format!("; the file has {} = {}: --speed {}", s.name, s.value, s.as_speed());
+    stated.as_ref().map_or_else(String::new, line)
 }

@@ -48,14 +48,14 @@ pub enum Uneven {
     Repeated { index: usize, at: f64, unit: String },
     /// The clock goes back.
     #[error(
-        "the time goes back after {} (sample {index}), to {}: it must rise",
+        "the time goes back after {} (sample {index}), to {}: it must rise, or be left out with --rate and --channel",
         quantity(.at, .unit), quantity(.to, .unit)
     )]
     Backward { index: usize, at: f64, to: f64, unit: String },
     /// The digits do not distinguish samples.
     #[error(
         "times are given to {}, samples come every {}: whether some are missing is not known. Give the times more \
-         digits",
+         digits, or leave this column out with --rate and --channel",
         quantity(.digit, .unit), quantity(.period, .unit)
     )]
     Coarse { digit: f64, period: f64, unit: String },
@@ -106,8 +106,8 @@ pub(super) struct Clock<'a> {
     unit: &'a str,
     /// Sampling period: a median.
     period: f64,
-    /// Digits after the point of each time; empty where no step is uneven without them.
-    decimals: Vec<u8>,
+    /// Digits after the point of each time, less than none where it ends in zeros; empty where no step is uneven without them.
+    decimals: Vec<i8>,
     /// Whether all times could have gone through single precision.
     single: bool,
     /// Samples before uneven steps.
@@ -128,7 +128,7 @@ impl<'a> Clock<'a> {
         clock.uneven = clock.beyond_limit();
         if !clock.uneven.is_empty() {
             clock.decimals = times.iter().map(|&t| decimals(t)).collect();
-            let single = |(&t, &n): (&f64, &u8)| (t - f64::from(t as f32)).abs() <= 0.51 * unit_of_digit(n);
+            let single = |(&t, &n): (&f64, &i8)| (t - f64::from(t as f32)).abs() <= 0.51 * unit_of_digit(n.max(0));
             clock.single = times.iter().zip(&clock.decimals).all(single);
             clock.uneven = clock.beyond_limit();
         }
@@ -189,7 +189,9 @@ impl<'a> Clock<'a> {
         if self.decimals.is_empty() {
             return double;
         }
-        let finest = |range: &[u8]| unit_of_digit(range.iter().copied().max().unwrap_or_default());
+        let finest = |range: &[i8]| {
+            unit_of_digit(range.iter().copied().filter(|&decimals| decimals != ANY).max().unwrap_or_default())
+        };
         // Each side by itself: where a fixed number of digits is printed in all, the point moves, and the digit with
         // it.
         let count = self.times.len();
@@ -249,12 +251,19 @@ fn period(times: &[f64]) -> f64 {
     statistics::median(&strides) / stride as f64
 }
 
-/// Digits after the point that a number needs to read back the same.
-fn decimals(value: f64) -> u8 {
+/// Decimals of 0, which may have any: its neighbours say which.
+const ANY: i8 = i8::MIN;
+
+/// Digits after the point that a number needs to read back the same; where none, zeros before it, less than none.
+fn decimals(value: f64) -> i8 {
     let text = value.to_string();
-    text.split_once('.').map_or(0, |(_, fraction)| fraction.len().min(usize::from(u8::MAX)) as u8)
+    match text.split_once('.') {
+        Some((_, fraction)) => fraction.len().min(127) as i8,
+        None if value == 0.0 => ANY,
+        None => -((text.len() - text.trim_end_matches('0').len()).min(127) as i8),
+    }
 }
 
-fn unit_of_digit(decimals: u8) -> f64 {
+fn unit_of_digit(decimals: i8) -> f64 {
     libm::pow(10.0, -f64::from(decimals))
 }

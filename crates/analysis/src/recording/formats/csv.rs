@@ -2,7 +2,8 @@
 //! text that does not read so is refused with the line and the options that would say how it is written.
 //!
 //! Lines before the first that consists of numbers are a preamble, and the last of them with as many cells is the
-//! heading. Lines that begin with # are comments.
+//! heading. Lines that begin with # are comments. Without a heading the shorter side counts the channels, as in arrays:
+//! one long row is one channel.
 
 use super::array::Columns;
 
@@ -12,8 +13,8 @@ const LONGEST_PREAMBLE: usize = 100;
 /// How a text's numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TextFormat {
-    /// What stands between columns; a blank is any number of blanks and tabs. Left out: a semicolon where the decimal
-    /// sign is a comma, else a blank in `.txt` and a comma in other files.
+    /// What stands between columns; a blank is any number of blanks and tabs. Left out: a tab in `.tsv` and `.lvm`, else
+    /// a semicolon where the decimal sign is a comma, a comma in `.csv`, and a blank in all other files.
     pub delimiter: Option<char>,
     /// Decimal sign, a point or a comma; left out, a point.
     pub decimal: Option<char>,
@@ -23,8 +24,12 @@ impl TextFormat {
     /// Delimiter and decimal sign of a file that ends so.
     fn signs(self, ending: &str) -> Result<(u8, char), String> {
         let decimal = self.decimal.unwrap_or('.');
-        let by_ending = if ending == "txt" { ' ' } else { ',' };
-        let delimiter = self.delimiter.unwrap_or(if decimal == ',' { ';' } else { by_ending });
+        let delimiter = self.delimiter.unwrap_or(match ending {
+            "tsv" | "lvm" => '\t',
+            _ if decimal == ',' => ';',
+            "csv" => ',',
+            _ => ' ',
+        });
         let byte = u8::try_from(delimiter).ok().filter(|&byte| byte.is_ascii() && !byte.is_ascii_alphanumeric());
         match byte {
             _ if !matches!(decimal, '.' | ',') => Err(format!("decimal sign '{decimal}': it is a point or a comma")),
@@ -85,6 +90,9 @@ pub(crate) fn columns(text: &str, ending: &str, format: TextFormat) -> Result<Co
         let last = last.map_or(String::new(), |line| format!(", the last of them '{line:.60}'"));
         return Err(format!("no line of numbers among the first {LONGEST_PREAMBLE}{last}; {how}"));
     }
+    if names.is_empty() && columns.len() > columns[0].len() {
+        columns = (0..columns[0].len()).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
+    }
     Ok((names, columns))
 }
 
@@ -103,7 +111,7 @@ fn cells(record: &csv::StringRecord) -> Vec<&str> {
 }
 
 /// A number with this decimal sign and no other.
-fn number(cell: &str, decimal: char) -> Option<f64> {
+pub(super) fn number(cell: &str, decimal: char) -> Option<f64> {
     if decimal == '.' {
         return cell.parse().ok();
     }
@@ -140,6 +148,19 @@ mod tests {
         }
         assert_eq!(columns("1.5\n2.5\n", "csv", default).unwrap(), (Vec::new(), vec![vec![1.5, 2.5]]));
         assert_eq!(columns("0,5\t1\n1,5\t2\n", "csv", with('\t', ',')).unwrap().1, [[0.5, 1.5], [1.0, 2.0]]);
+    }
+
+    #[test]
+    fn a_row_of_numbers_is_a_channel_whatever_stands_between_them() {
+        let default = TextFormat::default();
+        for (text, ending) in
+            [("1,2.5,-3\n", "csv"), ("# made\n1 2.5\t-3", "txt"), ("1\t2.5\t-3\n", "tsv"), ("1 2.5 -3\n", "39")]
+        {
+            assert_eq!(columns(text, ending, default).unwrap(), (Vec::new(), vec![vec![1.0, 2.5, -3.0]]), "{text}");
+        }
+        // Two rows are two channels, unless a heading says what stands below it.
+        assert_eq!(columns("1,2,3\n4,5,6\n", "csv", default).unwrap().1, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        assert_eq!(columns("a,b,c\n1,2,3\n4,5,6\n", "csv", default).unwrap().1.len(), 3);
     }
 
     #[test]

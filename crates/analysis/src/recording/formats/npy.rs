@@ -15,7 +15,7 @@ use std::io::{Cursor, Read};
 
 use serde::Deserialize;
 
-use super::array::{self, Columns, Number};
+use super::array::{self, Columns, Contents, Number};
 
 #[derive(Deserialize)]
 struct Header {
@@ -45,29 +45,34 @@ const MOST: usize = 1 << 16;
 /// Most bytes of a file in an archive.
 const LARGEST: u64 = 1 << 30;
 
-/// Channels of all arrays in an archive, named after them.
-pub(super) fn archive(bytes: &[u8]) -> Result<Columns, String> {
+/// All arrays in an archive, named after them.
+pub(super) fn archive(bytes: &[u8]) -> Result<Contents, String> {
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|why| why.to_string())?;
-    let (mut all_names, mut all) = (Vec::new(), Vec::new());
+    let mut contents = Contents::default();
     for index in 0..archive.len() {
         let entry = archive.by_index(index).map_err(|why| why.to_string())?;
         let name = entry.name().map_err(|why| why.to_string())?.into_owned();
         let Some(name) = name.strip_suffix(".npy") else { continue };
         let mut inside = Vec::new();
         entry.take(LARGEST).read_to_end(&mut inside).map_err(|why| format!("{name}: {why}"))?;
-        let (names, columns) = columns(&inside).map_err(|why| format!("{name}: {why}"))?;
-        // A scalar or a text beside the signals.
-        if columns.iter().all(|column| column.len() < 2) {
+        let about = |why: String| format!("{name}: {why}");
+        // Text beside the signals, as `<U7`.
+        if matches!(header(&inside).map_err(about)?.0.descr, Elements::Number(kind) if kind.contains(['U', 'S'])) {
             continue;
         }
-        all_names.extend(if names.is_empty() { array::names(name, columns.len()) } else { names });
-        all.extend(columns);
+        let (names, columns) = columns(&inside).map_err(about)?;
+        if names.is_empty() {
+            contents.add(name, columns);
+        } else {
+            contents.names.extend(names);
+            contents.columns.extend(columns);
+        }
     }
-    Ok((all_names, all))
+    Ok(contents)
 }
 
-/// The file's channels.
-pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
+/// The header, and what follows it.
+fn header(bytes: &[u8]) -> Result<(Header, &[u8]), String> {
     let short = || "the file ends inside its header".to_owned();
     if bytes.get(..6) != Some(b"\x93NUMPY".as_slice()) {
         return Err("not a .npy file: the magic string is missing".to_owned());
@@ -78,8 +83,13 @@ pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
     };
     let end = start + length.ok_or_else(short)?;
     let text = String::from_utf8_lossy(bytes.get(start..end).ok_or_else(short)?);
-    let header: Header = serde_json::from_str(&json(&text)).map_err(|why| format!("the header: {why}"))?;
-    let data = &bytes[end..];
+    let header = serde_json::from_str(&json(&text)).map_err(|why| format!("the header: {why}"))?;
+    Ok((header, &bytes[end..]))
+}
+
+/// The file's channels.
+pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
+    let (header, data) = header(bytes)?;
     match &header.descr {
         Elements::Number(kind) => {
             let number = Number::of_numpy(kind)?;
@@ -240,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn an_archive_gives_its_arrays_by_name_and_leaves_scalars_out() {
+    fn an_archive_gives_its_arrays_and_single_numbers_by_name_and_leaves_text_out() {
         let mut bytes = Cursor::new(Vec::new());
         let mut archive = zip::ZipWriter::new(&mut bytes);
         let head = |shape: &str| format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}\n");
@@ -250,9 +260,13 @@ mod tests {
             archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
             std::io::Write::write_all(&mut archive, &npy_bytes(&head(shape), data)).unwrap();
         }
+        archive.start_file("unit.npy", zip::write::SimpleFileOptions::default()).unwrap();
+        let text = npy_bytes("{'descr': '<U1', 'fortran_order': False, 'shape': (), }\n", b"g\0\0\0");
+        std::io::Write::write_all(&mut archive, &text).unwrap();
         archive.finish().unwrap();
-        let (names, read) = super::archive(bytes.get_ref()).unwrap();
+        let Contents { names, columns, numbers, .. } = super::archive(bytes.get_ref()).unwrap();
         assert_eq!(names, ["de", "two[1]", "two[2]"]);
-        assert_eq!(read, [[1.0, 2.0, 3.0], [1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
+        assert_eq!(columns, [[1.0, 2.0, 3.0], [1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
+        assert_eq!(numbers, [("rpm".to_owned(), 9.0)]);
     }
 }

@@ -3,6 +3,47 @@
 /// Names, empty where there are none, and columns.
 pub(crate) type Columns = (Vec<String>, Vec<Vec<f64>>);
 
+/// What a file holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(in crate::recording) struct Contents {
+    /// Names of the columns; empty where there are none.
+    pub(in crate::recording) names: Vec<String>,
+    pub(in crate::recording) columns: Vec<Vec<f64>>,
+    /// Single numbers by their names.
+    pub(in crate::recording) numbers: Vec<(String, f64)>,
+    /// Sampling rate (Hz), where the format has a place for it.
+    pub(in crate::recording) rate: Option<f64>,
+}
+
+impl From<Columns> for Contents {
+    fn from((names, columns): Columns) -> Self {
+        Self { names, columns, ..Self::default() }
+    }
+}
+
+impl Contents {
+    /// Adds an array, or what is a number by itself.
+    pub(super) fn add(&mut self, name: &str, channels: Vec<Vec<f64>>) {
+        match &channels[..] {
+            [one] if one.len() == 1 => self.numbers.push((name.to_owned(), one[0])),
+            _ => {
+                self.names.extend(names(name, channels.len()));
+                self.columns.extend(channels);
+            }
+        }
+    }
+
+    /// Gives the columns from `first` on, which lie at `path`, the name that the file has for them beside them: a name
+    /// and in brackets the path.
+    pub(super) fn call(&mut self, first: usize, path: &str, name: &str) {
+        let single = self.names.len() == first + 1;
+        for own in self.names[first..].iter_mut().filter(|own| !own.ends_with(')')) {
+            let part = own.strip_prefix(path).filter(|_| !single).unwrap_or_default();
+            *own = format!("{name}{part} ({own})");
+        }
+    }
+}
+
 /// What arrays are made of, for messages.
 const READ: &str = "floats of 4 or 8 bytes and integers of 1 to 8 are read";
 

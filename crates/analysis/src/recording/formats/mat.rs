@@ -1,6 +1,6 @@
 //! MATLAB's files of versions 5 to 7 ([format][mat]): numeric arrays, also within structures and cells, which are named
-//! by their path as in `bearing.gs` or `Y[7].Data`. Whatever has fewer than two numbers is left out. Version 7.3 is
-//! HDF5 ([`hdf5`](super::hdf5)).
+//! by their path as in `bearing.gs` or `Y[7].Data`, and single numbers. Where a structure has a text `Name`, its arrays
+//! are called so: `vibration_1 (Y[7].Data)`. Version 7.3 is HDF5 ([`hdf5`](super::hdf5)).
 //!
 //! A file is a header of 128 bytes and elements, each a tag (type, bytes) and data; an array is an element of elements:
 //! flags, dimensions, name, numbers. Numbers may be stored in a smaller type than the array's.
@@ -11,7 +11,7 @@ use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 
-use super::array::{self, Columns, Kind, Number};
+use super::array::{self, Contents, Kind, Number};
 
 /// Types of elements.
 const MATRIX: u32 = 14;
@@ -19,6 +19,7 @@ const COMPRESSED: u32 = 15;
 /// Classes of arrays.
 const CELL: u8 = 1;
 const STRUCTURE: u8 = 2;
+const TEXT: u8 = 4;
 const NUMERIC: std::ops::RangeInclusive<u8> = 6..=15;
 
 /// Deepest nesting of structures and cells: a hostile file must not exhaust the stack.
@@ -26,14 +27,14 @@ const DEEPEST: usize = 16;
 /// Most bytes that a compressed element may have.
 const LARGEST: u64 = 1 << 30;
 
-/// The file's channels.
-pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
+/// What the file holds.
+pub(super) fn contents(bytes: &[u8]) -> Result<Contents, String> {
     let big_endian = match bytes.get(126..128) {
         Some(b"IM") => false,
         Some(b"MI") => true,
         _ => return Err("not a MATLAB file of version 5 or later: save it with -v7".to_owned()),
     };
-    let mut file = File { big_endian, names: Vec::new(), columns: Vec::new() };
+    let mut file = File { big_endian, contents: Contents::default() };
     let mut rest = &bytes[128..];
     while !rest.is_empty() {
         let (kind, data) = file.element(&mut rest)?;
@@ -50,13 +51,12 @@ pub(super) fn columns(bytes: &[u8]) -> Result<Columns, String> {
             _ => {}
         }
     }
-    Ok((file.names, file.columns))
+    Ok(file.contents)
 }
 
 struct File {
     big_endian: bool,
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
+    contents: Contents,
 }
 
 impl File {
@@ -88,12 +88,7 @@ impl File {
         if data.is_empty() || depth > DEEPEST {
             return Ok(());
         }
-        let mut rest = data;
-        let (_, flags) = self.element(&mut rest)?;
-        let class = self.word(flags, 0)? as u8;
-        let (_, dimensions) = self.element(&mut rest)?;
-        let shape = self.words(dimensions)?;
-        let (_, name) = self.element(&mut rest)?;
+        let Head { class, shape, name, mut rest } = self.head(data)?;
         let path = if path.is_empty() { &*String::from_utf8_lossy(name) } else { path };
         let count = shape.iter().try_fold(1usize, |product, &n| product.checked_mul(n)).ok_or_else(short)?;
         let entry = |index: usize| if count == 1 { path.to_owned() } else { format!("{path}[{}]", index + 1) };
@@ -102,26 +97,77 @@ impl File {
                 let (_, length) = self.element(&mut rest)?;
                 let length = (self.word(length, 0)? as usize).max(1);
                 let (_, names) = self.element(&mut rest)?;
-                for index in 0..count {
-                    for name in names.chunks(length) {
-                        let name = name.split(|&byte| byte == 0).next().unwrap_or_default();
-                        let path = format!("{}.{}", entry(index), String::from_utf8_lossy(name));
-                        self.part(&mut rest, &path, depth)?;
-                    }
-                }
-                Ok(())
+                (0..count).try_for_each(|index| self.structure(&mut rest, names.chunks(length), &entry(index), depth))
             }
             CELL => (0..count).try_for_each(|index| self.part(&mut rest, &entry(index), depth)),
-            class if NUMERIC.contains(&class) && count > 1 => {
+            class if NUMERIC.contains(&class) && count > 0 => {
                 let (kind, data) = self.element(&mut rest)?;
                 let values = self.number(kind)?.values(data);
                 let channels = array::channels(&values, &shape, true).map_err(|why| format!("{path}: {why}"))?;
-                self.names.extend(array::names(path, channels.len()));
-                self.columns.extend(channels);
+                self.contents.add(path, channels);
                 Ok(())
             }
             _ => Ok(()),
         }
+    }
+
+    /// What an array begins with, and what follows that.
+    fn head<'a>(&self, data: &'a [u8]) -> Result<Head<'a>, String> {
+        let mut rest = data;
+        let (_, flags) = self.element(&mut rest)?;
+        let class = self.word(flags, 0)? as u8;
+        let (_, dimensions) = self.element(&mut rest)?;
+        let shape = self.words(dimensions)?;
+        let (_, name) = self.element(&mut rest)?;
+        Ok(Head { class, shape, name, rest })
+    }
+
+    /// Adds the fields of one structure.
+    fn structure<'f>(
+        &mut self,
+        rest: &mut &[u8],
+        fields: impl Iterator<Item = &'f [u8]>,
+        path: &str,
+        depth: usize,
+    ) -> Result<(), String> {
+        let first = self.contents.names.len();
+        let mut called = None;
+        for field in fields {
+            let field = String::from_utf8_lossy(field.split(|&byte| byte == 0).next().unwrap_or_default());
+            if field.eq_ignore_ascii_case("name") {
+                let mut part = *rest;
+                called = self.text(self.element(&mut part)?)?;
+            }
+            self.part(rest, &format!("{path}.{field}"), depth)?;
+        }
+        if let Some(name) = called {
+            self.contents.call(first, path, &name);
+        }
+        Ok(())
+    }
+
+    /// The text in an array of characters; none in other arrays, nor where there is nothing to read.
+    fn text(&self, (kind, data): (u32, &[u8])) -> Result<Option<String>, String> {
+        if kind != MATRIX || data.is_empty() {
+            return Ok(None);
+        }
+        let Head { class, mut rest, .. } = self.head(data)?;
+        if class != TEXT {
+            return Ok(None);
+        }
+        let (kind, data) = self.element(&mut rest)?;
+        let text = match kind {
+            // Characters of one byte, and UTF-8.
+            1 | 2 | 16 => String::from_utf8_lossy(data).into_owned(),
+            // Of two bytes, and UTF-16.
+            4 | 17 => {
+                let pair = |two: &[u8]| if self.big_endian { [two[0], two[1]] } else { [two[1], two[0]] };
+                let units: Vec<u16> = data.chunks_exact(2).map(|two| u16::from_be_bytes(pair(two))).collect();
+                String::from_utf16_lossy(&units)
+            }
+            _ => String::new(),
+        };
+        Ok(Some(text.trim().to_owned()).filter(|text| !text.is_empty()))
     }
 
     /// A field or a cell.
@@ -146,6 +192,14 @@ impl File {
         };
         Number::new(kind, size, self.big_endian, "")
     }
+}
+
+/// What an array begins with.
+struct Head<'a> {
+    class: u8,
+    shape: Vec<usize>,
+    name: &'a [u8],
+    rest: &'a [u8],
 }
 
 fn short() -> String {
@@ -204,32 +258,23 @@ mod tests {
     }
 
     #[test]
-    fn arrays_of_either_order_of_bytes_are_read_and_scalars_left_out() {
+    fn arrays_and_single_numbers_of_either_order_of_bytes_are_read() {
         for big in [false, true] {
-            let (names, read) = columns(&two_signals(big)).unwrap();
+            let Contents { names, columns, numbers, .. } = contents(&two_signals(big)).unwrap();
             assert_eq!(names, ["X097_DE_time", "X097_FE_time"]);
-            assert_eq!(read, [[0.5, -0.25, 1.0], [1.0, -2.0, 3.0]]);
+            assert_eq!(columns, [[0.5, -0.25, 1.0], [1.0, -2.0, 3.0]]);
+            assert_eq!(numbers, [("X097RPM".to_owned(), 1796.0)]);
         }
     }
 
     #[test]
     fn compressed_arrays_and_those_in_structures_and_cells_have_their_path_as_a_name() {
-        let names: Vec<u8> = ["sr", "gs"]
-            .iter()
-            .flat_map(|name| {
-                let mut bytes = [0; 8];
-                bytes[..2].copy_from_slice(name.as_bytes());
-                bytes
-            })
-            .collect();
-        let fields = [
-            // The length of a name stands in the tag itself.
-            words(false, &[4 << 16 | 5, 8]),
-            element(false, 1, &names),
+        let parts = [
+            fields(&["sr", "gs"]),
             doubles(false, [1, 1], "", &[48828.0]),
             doubles(false, [2, 2], "", &[1.0, 2.0, 3.0, 4.0]),
         ];
-        let structure = array(false, 2, [1, 1], "bearing", &fields.concat());
+        let structure = array(false, 2, [1, 1], "bearing", &parts.concat());
         let cells = array(
             false,
             1,
@@ -241,19 +286,68 @@ mod tests {
         packed.write_all(&structure).unwrap();
         let packed = packed.finish().unwrap();
         let compressed = [&words(false, &[COMPRESSED, packed.len() as u32])[..], &packed].concat();
-        let (names, read) = columns(&file(false, &[compressed, cells])).unwrap();
+        let Contents { names, columns, numbers, .. } = contents(&file(false, &[compressed, cells])).unwrap();
         assert_eq!(names, ["bearing.gs[1]", "bearing.gs[2]", "c[2]"]);
-        assert_eq!(read, [[1.0, 2.0], [3.0, 4.0], [7.0, 8.0]]);
+        assert_eq!(columns, [[1.0, 2.0], [3.0, 4.0], [7.0, 8.0]]);
+        assert_eq!(numbers, [("bearing.sr".to_owned(), 48828.0)]);
+    }
+
+    /// Names of a structure's fields. The length of a name stands in the tag itself.
+    fn fields(names: &[&str]) -> Vec<u8> {
+        let bytes = names.iter().flat_map(|name| {
+            let mut bytes = [0; 8];
+            bytes[..name.len()].copy_from_slice(name.as_bytes());
+            bytes
+        });
+        [words(false, &[4 << 16 | 5, 8]), element(false, 1, &bytes.collect::<Vec<u8>>())].concat()
+    }
+
+    #[test]
+    fn arrays_are_called_by_the_name_beside_them_in_their_structure() {
+        // As the data of Paderborn are: a structure of structures, each with its name before its numbers.
+        let text =
+            |kind: u32, text: &[u8], count: u32| array(false, TEXT.into(), [1, count], "", &element(false, kind, text));
+        let utf16: Vec<u8> = "vibration_1".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let channels = [
+            fields(&["Name", "Raster", "Data"]),
+            text(16, b"force", 5),
+            text(16, b"Mech", 4),
+            doubles(false, [1, 2], "", &[1.0, 2.0]),
+            text(4, &utf16, 11),
+            text(16, b"Host", 4),
+            doubles(false, [1, 3], "", &[3.0, 4.0, 5.0]),
+        ];
+        let y = array(false, 2, [1, 2], "", &channels.concat());
+        let whole = array(false, 2, [1, 1], "N15", &[fields(&["Y"]), y].concat());
+        let Contents { names, columns, .. } = contents(&file(false, &[whole.clone()])).unwrap();
+        assert_eq!(names, ["force (N15.Y[1].Data)", "vibration_1 (N15.Y[2].Data)"]);
+        assert_eq!(columns, [vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]);
+        // Two arrays beside one name keep theirs apart.
+        let two = [
+            fields(&["a", "name", "b"]),
+            doubles(false, [1, 2], "", &[1.0, 2.0]),
+            text(2, b"left", 4),
+            doubles(false, [1, 2], "", &[3.0, 4.0]),
+        ];
+        let two = file(false, &[array(false, 2, [1, 1], "s", &two.concat())]);
+        assert_eq!(contents(&two).unwrap().names, ["left.a (s.a)", "left.b (s.b)"]);
+        let whole = file(false, &[whole]);
+        for at in 0..whole.len() {
+            let _ = contents(&whole[..at]);
+            let mut bytes = whole.clone();
+            bytes[at] ^= 0x83;
+            let _ = contents(&bytes);
+        }
     }
 
     #[test]
     fn a_file_cut_short_is_refused_or_ends_between_two_arrays_and_never_panics() {
         let whole = two_signals(false);
         for cut in 0..whole.len() {
-            let read = columns(&whole[..cut]);
-            assert!(read.is_err() || read.is_ok_and(|(names, _)| names.len() < 2), "{cut} bytes");
+            let read = contents(&whole[..cut]);
+            assert!(read.is_err() || read.is_ok_and(|read| read.names.len() < 2), "{cut} bytes");
         }
-        assert!(columns(b"MATLAB 4").is_err_and(|why| why.contains("-v7")));
+        assert!(contents(b"MATLAB 4").is_err_and(|why| why.contains("-v7")));
     }
 
     #[test]
@@ -263,7 +357,7 @@ mod tests {
             for change in [1, 0x80, 0xff] {
                 let mut bytes = whole.clone();
                 bytes[at] ^= change;
-                let _ = columns(&bytes);
+                let _ = contents(&bytes);
             }
         }
     }
