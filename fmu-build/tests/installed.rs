@@ -51,14 +51,14 @@ fn as_user(command: &mut Command, here: &Path, bin: &Path) {
     command.envs(std::env::vars().filter(|(name, _)| kept(name)));
 }
 
-/// An environment with the wheel and what draws figures, and its folder of programs.
-fn environment() -> PathBuf {
+/// An environment with the wheel and these of its extras, and its folder of programs.
+fn environment(name: &str, extras: &str) -> PathBuf {
     let wheel = made("manylinux_2_17_x86_64.whl");
-    let folder = common::folder("wheel-env");
+    let folder = common::folder(name);
     let done = Command::new("python3").args(["-m", "venv"]).arg(&folder).status().unwrap();
     assert!(done.success());
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    let what = format!("{}[figures]", wheel.display());
+    let what = format!("{}[{extras}]", wheel.display());
     said(Command::new(folder.join("bin/python")).args(install).arg(what));
     folder.join("bin")
 }
@@ -70,7 +70,7 @@ mod all_platforms {
     #[test]
     #[ignore = "needs what `cargo lab dist` makes"]
     fn a_wheel_in_an_empty_environment_builds_drives_and_draws_and_leaves_nothing_else() {
-        let bin = environment();
+        let bin = environment("wheel-env", "figures");
         let (here, mut demo) = user("wheel-demo", &bin.join("brinell"), &bin);
         assert!(Command::new("which").arg("cargo").env("PATH", "/usr/bin:/bin").status().is_ok_and(|s| !s.success()));
         said(demo.arg("demo"));
@@ -95,6 +95,17 @@ mod all_platforms {
         let code = "import brinell; run = brinell.run('er16k-tb1', stop=0.01); print(run, run['shaft.y'][-1])";
         let told = said(python.args(["-c", code]));
         assert!(told.contains("101 points until 0.0"), "{told}");
+        assert_eq!(names(&here), BTreeSet::new());
+    }
+
+    #[test]
+    #[ignore = "needs what `cargo lab dist` makes; ROSS and what it needs are 1.4 GB"]
+    fn a_wheel_with_its_extras_in_an_empty_environment_couples_rotors_of_ross() {
+        let bin = environment("wheel-extras", "figures,ross");
+        let (here, mut python) = user("wheel-ross", &bin.join("python"), &bin);
+        let code = "import brinell.ross, plotly; print('imported', brinell.ross.element.__name__, plotly.__version__)";
+        let told = said(python.args(["-c", code]));
+        assert!(told.contains("imported element 6."), "{told}");
         assert_eq!(names(&here), BTreeSet::new());
     }
 

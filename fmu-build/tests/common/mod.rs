@@ -76,12 +76,21 @@ pub(crate) fn examples_python() -> &'static Python {
     static PYTHON: OnceLock<Python> = OnceLock::new();
     PYTHON.get_or_init(|| {
         let (name, requirements) = if env::var_os("BRINELL_NEWEST_ROSS").is_some() {
-            ("examples-python-newest", "ross-rotordynamics\nfmpy\nmatplotlib\n".to_owned())
+            ("examples-python-newest", extras().join("\n"))
         } else {
             ("examples-python", fs::read_to_string(root().join("examples/requirements.txt")).unwrap())
         };
         that_builds(Python::prepare_from(&Project::find(), name, &requirements).unwrap())
     })
+}
+
+/// What a user gets with `pip install brinell[figures,ross]`.
+fn extras() -> Vec<String> {
+    let project = fs::read_to_string(root().join("pyproject.toml")).unwrap();
+    let project: toml::Table = project.parse().unwrap();
+    let extras = project["project"]["optional-dependencies"].as_table().unwrap();
+    let listed = ["figures", "ross"].into_iter().flat_map(|name| extras[name].as_array().unwrap());
+    listed.map(|package| package.as_str().unwrap().to_owned()).collect()
 }
 
 /// Neither ROSS nor the learners that come along with it run on Python 3.9, whatever they say of themselves.
