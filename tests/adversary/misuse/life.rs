@@ -154,12 +154,15 @@ pub(super) fn debug_logging(w: &mut Walker, chance: &mut Chance, kind: bool, _: 
     let before = w.categories;
     if verdict != ERROR {
         let listed = names.iter().map(of).fold(0, |all, one| all | one);
+        let known = |name: &&str| KNOWN.iter().any(|(known, _)| known == name);
         w.categories = if !on {
             0
         } else if names.is_empty() {
             ALL_CATEGORIES
-        } else {
+        } else if names.iter().any(known) {
             listed
+        } else {
+            w.categories
         };
     }
     // SAFETY: as many strings as said, each ended by NUL; or pointers that are to be refused.

@@ -57,6 +57,12 @@ fn an_unknown_category_is_a_warning_and_the_known_ones_are_set() {
     assert_eq!((line.status, line.category.as_str()), (Status::Warning, "logStatusWarning"));
     assert!(line.message.contains("log%nEverything"));
     assert_eq!(provoke(&host), ["logEvents"]);
+    // One that is of another tool and nothing else leaves the choice as it is, in any mode and however it is asked.
+    for on in [true, false, true] {
+        assert_eq!(switch(&host, on, &["logDynamicStateSelection"]), Status::Warning);
+        assert_eq!(provoke(&host), if on { vec!["logEvents"] } else { vec![] });
+        assert_eq!(switch(&host, true, &["logEvents"]), Status::Ok);
+    }
 }
 
 #[test]

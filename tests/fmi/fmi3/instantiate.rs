@@ -134,6 +134,11 @@ fn categories_are_turned_on_and_off_one_by_one() {
     // The others are still on.
     assert_eq!(turn(TRUE, &[c"logNothing"]), Status::Warning);
     assert!(host.last_message().contains("logNothing"));
+    // Of a list with one that is unknown the others are turned.
+    assert_eq!(turn(TRUE, &[c"logNothing", c"logStatusError", c"logEvents"]), Status::Warning);
+    assert!(error_is_heard());
+    assert_eq!(turn(FALSE, &[c"logNothing", c"logStatusError"]), Status::Warning);
+    assert!(!error_is_heard());
     assert_eq!(turn(TRUE, &[c"logStatusError"]), Status::Ok);
     assert!(error_is_heard());
     assert_eq!(turn(FALSE, &[]), Status::Ok);

@@ -84,9 +84,13 @@ impl Logger {
         names.iter().find(|name| named(name).is_none()).map_or(Ok(()), |name| Err(*name))
     }
 
-    /// Switches all categories off, or on as listed; an empty list means all. Gives the first unknown name.
+    /// Switches all categories off, or on as listed; an empty list means all. Gives the first unknown name; where all
+    /// are unknown, what is on stays on.
     pub(crate) fn switch<'a>(&mut self, on: bool, names: &[&'a str]) -> Result<(), &'a str> {
-        self.switched_on = 0;
+        let known = |name: &&str| Category::LIST.into_iter().any(|category| category.name() == *name);
+        if !on || names.is_empty() || names.iter().any(known) {
+            self.switched_on = 0;
+        }
         self.turn(on, names)
     }
 
