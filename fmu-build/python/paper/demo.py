@@ -103,7 +103,7 @@ def draw(stem, table, signals, raceway, normal, events, element, radius):
 
     force.plot(ms, signals["force.outer"], color=SKY, linewidth=3, label="outer contact")
     force.plot(ms, signals["force.inner"], color=VERMILION, linewidth=1, label="inner contact")
-    # The least on the left, or event 3 would cross it.
+    # The least on the left, or event 4 would cross it.
     for what, words, side, anchor in (("least", "", -6, "right"), ("peak", "re-load peak, ", 6, "left")):
         if what in events:
             at = ((events[what][0] - start) * 1e3, events[what][1])

@@ -19,6 +19,10 @@ def find_events(signals, entry, leave):
         if force[least] == 0.0:
             free = first + int(np.flatnonzero(force[first:again] == 0.0)[0])
             events["free"] = (float(time[free]), 0.0)
+            # What touches later than that may be the trailing edge.
+            struck = np.flatnonzero((force > 0.0) & (time > time[free]) & (time < entry + 0.7 * (leave - entry)))
+            if struck.size:
+                events["floor"] = at(float(time[struck[0]]))
         events["least"] = (float(time[least]), float(force[least]))
         events["reload"] = (float(time[again]), float(force[again]))
     peak = np.flatnonzero(inside)[int(np.argmax(force[inside]))]
@@ -27,13 +31,15 @@ def find_events(signals, entry, leave):
     return normal, events
 
 
-# Events by the paper's numbers, as `brinell paper fig1` has them.
+# Events by the paper's numbers (floor and load's return: its section 5.2), as `brinell paper fig1` has them.
 NUMBERED = {
     "entry": (1, "enters: its centre passes the leading edge"),
-    "free": (2, "free of load, it may strike the floor"),
-    "reload": (3, "has half its force again, at the trailing edge"),
-    "exit": (4, "leaves: its centre passes the trailing edge"),
+    "free": (2, "free of load"),
+    "floor": (3, "strikes the floor"),
+    "reload": (4, "has half its force again, at the trailing edge"),
 }
+# Why an event does not come.
+ABSENT = {"free": "the element never gets free", "floor": "the floor is out of reach"}
 
 
 def listed(events, start, of=""):
@@ -42,5 +48,5 @@ def listed(events, start, of=""):
     for name, (number, words) in NUMBERED.items():
         if name in events:
             yield f"{number}  {(events[name][0] - start) * 1e3:5.2f} ms  {words}"
-        elif name == "free":
-            yield f"{number}   does not come: the element never gets free"
+        elif name in ABSENT:
+            yield f"{number}   does not come: {ABSENT[name]}"

@@ -33,6 +33,7 @@ def four_events():
     data = read("four-events")
     time = data["time"] * 1e3
     free = time[(time > 0) & (data["map element[1].force.outer"] == 0)][0]
+    struck = time[(time > free) & (data["map element[1].force.outer"] > 0)][0]
     again = time[(time > free + 1) & (data["map element[1].force.inner"] > 0)][0]
     figure, axes = plt.subplots(3, 1, figsize=(plotting.WIDTH, 7.2), sharex=True)
     panels = (
@@ -49,9 +50,9 @@ def four_events():
     axes[0].set_ylim(-1.2 * spread, 1.6 * spread)
     low, high = axes[1].get_ylim()
     axes[1].set_ylim(low, high + 0.55 * (high - low))
-    for at, text in ((0.0, "1 enters"), (free, "2 free"), (again, "3 chatter"), (10.997, "4 leaves")):
+    for at, text in ((0.0, "1 enters"), (free, "2 free"), (struck, "3 floor"), (again, "4 re-load"), (10.997, "leaves")):
         # Names that would meet stand on two heights.
-        event(axes[1], at, text, 0.8 if text[0] in "24" else 0.98, "right" if at == 0 else "left")
+        event(axes[1], at, text, 0.8 if text[0] in "2l" else 0.98, "right" if text[0] in "14" else "left")
         for axis in (axes[0], axes[2]):
             axis.axvline(at, color="black", linewidth=0.8, linestyle=":")
     axes[0].set_title("Line spall of 15.8°, 500 N, 10 Hz: one element passes")

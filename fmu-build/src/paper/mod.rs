@@ -10,7 +10,7 @@ pub mod passage;
 pub mod statics;
 
 pub use case::Case;
-pub use claims::{Claim, Outcome};
+pub use claims::{Beside, Claim, Outcome};
 pub use passage::{Epps, FourEvents, Passage};
 
 use std::path::Path;
@@ -20,7 +20,7 @@ use brinell::scene::ContactLaw;
 use clap::ValueEnum;
 use serde_json::json;
 
-use crate::shared::{Project, Python, csv, whole_file};
+use crate::shared::{Drawn, Project, csv, whole_file};
 use averages::PANELS;
 
 /// The laws that are laid beside each other.
@@ -65,7 +65,7 @@ impl Part {
 ///
 /// # Errors
 /// Of simulation, files and Python.
-pub fn command(project: &Project, part: Part, json: bool, figure: bool, folder: &Path) -> Result<()> {
+pub(crate) fn command(project: &Project, part: Part, json: bool, drawn: &Drawn) -> Result<()> {
     let data = tempfile::tempdir()?;
     let claims = match part {
         Part::Fig1 => claims::four_events(four_events(project, data.path())?, project)?,
@@ -84,17 +84,15 @@ pub fn command(project: &Project, part: Part, json: bool, figure: bool, folder: 
         print!("{}", claims::table(&claims));
     }
     let Some(name) = part.figure() else { return Ok(()) };
-    let stem = folder.join(format!("paper-{}", part.name()));
+    let stem = drawn.folder(project, "paper").join(format!("paper-{}", part.name()));
     for entry in std::fs::read_dir(data.path())? {
         // Where a figure has one table, that is named after the figure.
         let path = stem.with_extension("csv");
         whole_file::write(&path, std::fs::read(entry?.path())?)?;
         println!("{}", path.display());
     }
-    if figure {
-        let python = Python::prepare(project)?;
-        print!("{}", python.run("paper.py", [name.as_ref(), data.path().as_os_str(), stem.as_os_str()])?);
-    }
+    let what = [name.as_ref(), data.path().as_os_str(), stem.as_os_str()];
+    print!("{}", drawn.figure(project, "paper.py", what, std::slice::from_ref(&stem))?);
     Ok(())
 }
 

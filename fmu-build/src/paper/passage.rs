@@ -52,6 +52,12 @@ impl Passage {
             self.time.iter().zip(&self.signals[1]).filter(|(t, _)| **t >= from && **t <= to).map(|(_, a)| *a).collect();
         within.iter().sum::<f64>() / within.len() as f64
     }
+
+    /// Largest vertical acceleration of the housing between two times, either way (s, m/s²).
+    pub fn shaken(&self, from: f64, to: f64) -> f64 {
+        let within = self.time.iter().zip(&self.signals[1]).filter(|(t, _)| **t >= from && **t <= to);
+        within.fold(0.0, |most, (_, a)| a.abs().max(most))
+    }
 }
 
 /// The events of a line spall: times from the leading edge (s), and a force (N).
@@ -131,6 +137,15 @@ impl Epps {
         let deepest = passage.signals[2].iter().copied().fold(0.0, f64::max);
         let rings = rings_after(project, case, length)?;
         Ok(Self { drop: rigid_drop(case)?, deepest, traverse, force, rings, passage })
+    }
+
+    /// When the outer force is least, and when half of what it was before the spall is there again (s).
+    pub fn unloaded_and_loaded(&self) -> (f64, f64) {
+        let (time, force) = (&self.passage.time, &self.passage.signals[4]);
+        let over = (0..time.len()).filter(|&k| time[k] >= 0.0 && time[k] <= 1.2 * self.traverse);
+        let least = over.min_by(|&a, &b| force[a].total_cmp(&force[b])).unwrap_or(0);
+        let half = (least..time.len()).find(|&k| force[k] > 0.5 * self.force[0]);
+        (time[least], half.map_or(f64::NAN, |k| time[k]))
     }
 
     /// Its length on the raceway of this case (degrees).

@@ -1,10 +1,11 @@
-//! The machine that times were taken on, and the clock that they were taken with.
+//! The machine and the commit that times were taken on, and the clock that they were taken with.
 
 use std::fs;
+use std::process::Command;
 
 use cpu_time::ThreadTime;
 
-/// One line: processor, cores, system, load.
+/// One line: processor, registers, cores, system, load, commit.
 pub(super) fn description() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let processor = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
@@ -15,12 +16,40 @@ pub(super) fn description() -> String {
         .ok()
         .and_then(|text| Some(format!(", {} programs running on average in the last minute", text.split(' ').next()?)));
     format!(
-        "{}, {cores} cores, {} {}{}",
+        "{}{}, {cores} cores, {} {}{}, commit {}",
         processor.unwrap_or_else(|| "processor unknown".to_owned()),
+        registers(),
         std::env::consts::OS,
         std::env::consts::ARCH,
-        load.unwrap_or_default()
+        load.unwrap_or_default(),
+        commit().unwrap_or_else(|| "unknown".to_owned())
     )
+}
+
+/// How wide its registers are, on which ratios of times depend.
+fn registers() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if std::arch::is_x86_feature_detected!("avx512f") {
+            " with AVX-512"
+        } else if std::arch::is_x86_feature_detected!("avx2") {
+            " with AVX2"
+        } else {
+            " without AVX2"
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    ""
+}
+
+/// The commit of the sources here, and whether they have changed since.
+fn commit() -> Option<String> {
+    let git = |words: &[&str]| {
+        let output = Command::new("git").args(words).output().ok().filter(|output| output.status.success())?;
+        Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let changed = !git(&["status", "--porcelain", "--untracked-files=no"])?.is_empty();
+    Some(git(&["rev-parse", "--short=8", "HEAD"])? + if changed { " with changes" } else { "" })
 }
 
 /// CPU seconds of this thread that a run takes.

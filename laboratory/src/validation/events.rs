@@ -9,24 +9,24 @@ use fmu_build::paper::{self, Epps, FourEvents};
 use super::{folder, page::Page};
 use fmu_build::shared::Project;
 
-/// A row of the table of events: its name, the prototype's figure, and how ours is read.
-type Event = (&'static str, &'static str, fn(&FourEvents) -> f64);
+/// A row of the table of events: its name, the paper's figure and the prototype's, and how ours is read.
+type Event = (&'static str, [&'static str; 2], fn(&FourEvents) -> f64);
 
 /// Fills in `four_events` and `epps`, and writes what the figures show.
 pub fn fill(project: &Project, page: &Page) -> Result<()> {
     let mut table = String::new();
     let found = paper::four_events(project, &folder(project))?;
     let rows: [Event; 6] = [
-        ("element free of load after the leading edge (ms)", "0.6", |e| 1e3 * e.free),
-        ("first strike of the floor after the leading edge (ms)", "weak", |e| 1e3 * e.floor),
-        ("inner ring carries again (ms)", "10.1", |e| 1e3 * e.reload),
-        ("end of the chatter: no more lift-off (ms)", "10.6", |e| 1e3 * e.settled),
-        ("centre over the trailing edge (ms)", "11.0", |e| 1e3 * e.exit),
-        ("greatest force on the element at the exit (N)", "≈ 400", |e| e.peak),
+        ("2: element free of load after the leading edge (ms)", ["–", "0.6"], |e| 1e3 * e.free),
+        ("3: first strike of the floor after the leading edge (ms)", ["weak"; 2], |e| 1e3 * e.floor),
+        ("4: inner ring carries again (ms)", ["–", "10.1"], |e| 1e3 * e.reload),
+        ("end of the chatter: no more lift-off (ms)", ["–", "10.6"], |e| 1e3 * e.settled),
+        ("centre over the trailing edge (ms)", ["–", "11.0"], |e| 1e3 * e.exit),
+        ("greatest force on the element at the exit (N)", ["–", "≈ 400"], |e| e.peak),
     ];
-    for (label, prototype, of) in rows {
+    for (label, [paper, prototype], of) in rows {
         let ours = found.iter().map(|(e, _)| format!("{:.*}", if of(e) > 50.0 { 0 } else { 2 }, of(e)));
-        writeln!(table, "| {label} | {prototype} | {} |", ours.collect::<Vec<_>>().join(" | "))?;
+        writeln!(table, "| {label} | {paper} | {prototype} | {} |", ours.collect::<Vec<_>>().join(" | "))?;
     }
     page.set_rows("four_events", &table)?;
     epps(project, page)

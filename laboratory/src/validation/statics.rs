@@ -80,7 +80,8 @@ fn stiffness() -> Result<String> {
 
 fn critical_loads() -> Result<String> {
     let mut table = String::new();
-    let theirs = |name: &str| if name == "er16k-tb2" { "3630" } else { "500–600 (paper)" };
+    // The paper's step is that of the nominal depth; the prototype gave a number there alone.
+    let theirs = |name: &str| if name == "er16k-tb2" { "500–600 | 3630" } else { "500–600 | –" };
     for (label, name) in [
         ("TB2, 100 µm", "er16k-tb2"),
         ("TB2, 30 µm", "er16k-tb2-30um"),
