@@ -142,9 +142,9 @@ def run(
         bearing=bearing, defect=defect, stop=stop, step=step, columns=_listed(columns) or "*",
         speed_profile=speed_profile, noise_db=noise_db, noise_seed=noise_seed if noise_db is not None else None,
     )  # fmt: skip
-    with _written("run", *options, *([os.fspath(scene)] if scene is not None else [])) as (_, _, folder):
-        (file,) = folder.glob("*.csv")
-        table = _table(file)
+    with _written("run", *options, *([os.fspath(scene)] if scene is not None else [])) as (said, _, folder):
+        # The table is named first, spectra behind it.
+        table = _table(Path(said.splitlines()[0]))
         recordings = [np.load(path) for path in folder.glob("*.npy")]
     heads = {head: head.rpartition(" [") for head in table}
     signals = {name: table[head] for head, (name, _, _) in heads.items()}
@@ -159,7 +159,7 @@ def size(
     bearing: str | None = None,
     load: float | None = None,
     speed: float | str | Iterable[float | str] | None = None,
-    rate: float | None = None,
+    rate: float | str | None = None,
     tacho: str | None = None,
     pulses: int = 1,
     speed_column: str | None = None,
@@ -169,12 +169,14 @@ def size(
     decimal: str | None = None,
     output: PathLike | None = None,
 ) -> Answer:
-    """Length of a spall from recordings of one bearing (.csv, .txt, .npy, .npz, .mat or .wav), or why there is none.
+    """Length of a spall from recordings of one bearing, or why there is none: .csv, .tsv, .txt, .lvm, .npy, .npz, .mat,
+    .wav, or texts of any other name.
 
     ``scene`` describes the bearing, or ``bearing`` names one of the catalogue and ``load`` [N] what it carries. One of
     ``speed`` ([Hz], or "1797rpm"; for all recordings or for each), ``tacho`` and ``speed_column`` says how the shaft
-    turns; ``rate`` [Hz], ``channel`` (or by its older name ``column``), ``delimiter`` and ``decimal`` say what a file
-    does not. Gives what ``brinell size`` prints as JSON; averaged passages are kept where ``output`` names a folder.
+    turns; ``rate`` ([Hz], or "51.2kHz"), ``channel`` (or by its older name ``column``), ``delimiter`` and ``decimal``
+    say what a file does not. Gives what ``brinell size`` prints as JSON; averaged passages are kept where ``output``
+    names a folder.
     """
     files = [recordings] if isinstance(recordings, (str, os.PathLike)) else list(recordings)
     options = _options(

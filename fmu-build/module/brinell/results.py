@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import html
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -49,6 +50,29 @@ def _pandas() -> Any:
     return pandas
 
 
+class UnknownName(KeyError):
+    """A name that a result does not have; the text says which it has."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def _unknown(what: str, name: Any, names: Iterable[str]) -> UnknownName:
+    """What the program answers to ``--columns``: the nearest name, and those that begin alike."""
+
+    def head(name: str) -> str:
+        return name.replace("[", ".").partition(".")[0].strip()
+
+    names = list(names)
+    begun = sorted((known for known in names if str(name) and known.startswith(str(name))), key=len)
+    near = (begun or difflib.get_close_matches(str(name), names, n=1))[:1]
+    like = [known for known in names if head(known) == head(str(name))]
+    there = f"names that begin with {head(str(name))!r} are {', '.join(like)}" if like else ""
+    there = there or f"there are {', '.join(dict.fromkeys(head(known) + '*' for known in names))}"
+    guess = "".join(f"did you mean {known}? " for known in near)
+    return UnknownName(f"{what} {name!r}: no such name here; {guess}{there}")
+
+
 class Run(Mapping[str, Signal]):
     """Signals of a run by name, each with one sample per communication point.
 
@@ -62,6 +86,8 @@ class Run(Mapping[str, Signal]):
         self.recording = recording
 
     def __getitem__(self, name: str) -> Signal:
+        if name not in self._signals:
+            raise _unknown("signal", name, self)
         return self._signals[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -89,11 +115,14 @@ class Run(Mapping[str, Signal]):
         """Draws signals over the time, a panel for each unit, and gives the ``matplotlib`` figure; without ``names``
         what the sensors show, or the housing's acceleration."""
         chosen = _chosen(names) or [name for name in self if name.startswith("sensor")] or ["housing.ay"]
-        return figures.panels("time (s)", self["time"], [(name, self.units[name], self[name]) for name in chosen])
+        return figures.panels("time (s)", self["time"], [(name, self.units.get(name, ""), self[name]) for name in chosen])
 
 
 class Columns(dict[str, Signal]):
     """Columns over the cage angle, a dictionary by their names with units."""
+
+    def __missing__(self, name: str) -> Signal:
+        raise _unknown("column", name, self)
 
     def _repr_html_(self) -> str:
         return _summary(f"{len(self)} columns, {len(next(iter(self.values())))} cage angles", self)
@@ -139,6 +168,9 @@ class Answer(dict[str, Any]):
         self._draw = draw
         # The list that is shown below numbers and words.
         self._shown = shown
+
+    def __missing__(self, name: str) -> Any:
+        raise _unknown("answer", name, self)
 
     def _repr_html_(self) -> str:
         tables: list[list[tuple[Any, ...]]] = [[("what", "value"), *_flat(self)]]

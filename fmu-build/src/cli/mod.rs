@@ -118,10 +118,7 @@ impl Command {
                 let folder = options.output.unwrap_or_else(|| project.results("demo"));
                 demo::command(project, &options.library.or_environment(), &folder)
             }
-            Command::Paper(options) => {
-                let folder = options.drawn.folder(project, "paper");
-                paper::command(project, options.part, options.json, !options.drawn.no_figure, &folder)
-            }
+            Command::Paper(options) => paper::command(project, options.part, options.json, &options.drawn),
             Command::Scenes(options) => {
                 scenes::command(&options.names, options.json, &options.output.unwrap_or_default())
             }

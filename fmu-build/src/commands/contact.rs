@@ -11,7 +11,7 @@ use brinell_analysis::pressure::{BallOnRaceway, ContactReport, Pressed, Section,
 use clap::{Args, ValueEnum};
 
 use crate::package::{SceneFiles, read_all};
-use crate::shared::{Drawn, Project, Python, csv, gigapascals, number, whole_file};
+use crate::shared::{Drawn, Project, csv, gigapascals, number, whole_file};
 
 /// A raceway.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -88,9 +88,7 @@ pub fn command(project: &Project, options: &Contact) -> Result<()> {
     let hertz: Vec<f64> = section.hertz.iter().map(Stress::von_mises).collect();
     write_stresses(&beside("-depth.csv"), &section.depth, &hertz)?;
     write_stresses(&beside("-plane.csv"), &section.plane, &[])?;
-    if !options.drawn.no_figure {
-        Python::draw(project, "contact.py", [stem]);
-    }
+    eprint!("{}", options.drawn.figure(project, "contact.py", [&stem], std::slice::from_ref(&stem))?);
     Ok(())
 }
 

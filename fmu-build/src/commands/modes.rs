@@ -6,7 +6,7 @@ use brinell_analysis::modes::{Assembly, Hold, Kind, LineReport, ModesReport, loa
 
 use super::stiffness::{OverCageAngle, enough_points};
 use crate::package::Model;
-use crate::shared::{Project, Python, contact_map, whole_file};
+use crate::shared::{Project, contact_map, whole_file};
 
 /// The command: `<folder>/<scene>-modes.json` and, if wanted, a figure.
 pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
@@ -40,10 +40,7 @@ pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
     } else {
         print!("{}", summary(&report));
     }
-    if !options.drawn.no_figure {
-        let python = Python::prepare(project)?;
-        options.tell(python.run("modes.py", [stem])?);
-    }
+    options.tell(options.drawn.figure(project, "modes.py", [&stem], &[whole_file::beside(&stem, "-modes")])?);
     Ok(())
 }
 

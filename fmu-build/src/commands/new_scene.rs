@@ -61,7 +61,9 @@ pub(crate) fn unwritten(bearing: &str, asked: Asked) -> Result<String> {
 
 /// Name of a scene that is given none.
 fn unnamed(bearing: &CatalogueBearing, asked: Asked) -> String {
-    format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy", |spall| spall.on))
+    // A name has no points: 1.2 mm are 1_2mm.
+    let of_spall = |Spall { on, length, unit }: &Spall| format!("{on}-{length}{unit}").replace('.', "_");
+    format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy".to_owned(), of_spall))
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).

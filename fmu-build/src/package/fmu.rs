@@ -1,5 +1,7 @@
 //! What an FMU of a scene holds, and where in it.
 
+use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -10,9 +12,11 @@ use super::documentation;
 use super::library::Library;
 use super::model::Model;
 use crate::package::description::{model_description, terminals};
-use crate::shared::{Interface, Version, whole_file};
+use crate::shared::{Interface, Version, note, whole_file};
 
 const ICON: &[u8] = include_bytes!("../../assets/model.png");
+/// Bytes of a description in which its version stands.
+const LONGEST_HEAD: u64 = 1000;
 const LICENSE: &str = "Brinell is licensed under either of\n\n\
     - the Apache License, Version 2.0 (LICENSE-APACHE), or\n\
     - the MIT license (LICENSE-MIT)\n\nat your option.\n\n\
@@ -64,10 +68,25 @@ pub fn pack(model: &Model, library: &Library, interface: impl Into<Interface>) -
     Ok(archive.to_zip()?)
 }
 
+/// The version of the standard after which an FMU is made, where a file is one.
+fn version_of(path: &Path) -> Option<Version> {
+    let mut archive = zip::ZipArchive::new(fs::File::open(path).ok()?).ok()?;
+    let mut text = String::new();
+    archive.by_name("modelDescription.xml").ok()?.take(LONGEST_HEAD).read_to_string(&mut text).ok()?;
+    [Version::Fmi2, Version::Fmi3]
+        .into_iter()
+        .find(|version| text.contains(&format!("fmiVersion=\"{}", version.number())))
+}
+
 /// Packs a scene and writes `<scene name>.fmu` into the folder, making it if need be. Gives the file's path.
 pub fn write(model: &Model, library: &Library, interface: impl Into<Interface>, folder: &Path) -> Result<PathBuf> {
     let path = folder.join(format!("{}.fmu", model.scene.name));
+    let interface = interface.into();
     let bytes = pack(model, library, interface).with_context(|| path.display().to_string())?;
+    if let Some(there) = version_of(&path).filter(|there| *there != interface.version) {
+        let (name, path) = (interface.version.number(), path.display());
+        note!("note: {path} was of FMI {} and is now of FMI {name}; -o names a folder apart", there.number());
+    }
     whole_file::write(&path, bytes)?;
     Ok(path)
 }

@@ -70,6 +70,12 @@ impl Columns {
         Ok(Self::those(table, &|name| patterns.iter().any(|pattern| matches(pattern, name))))
     }
 
+    /// These and one more, which may be among them.
+    pub fn with(self, table: &[Variable], name: &str) -> Self {
+        let mine: Vec<String> = self.names.into_iter().map(|(name, _)| name).collect();
+        Self::those(table, &|other| other == name || mine.iter().any(|mine| mine == other))
+    }
+
     fn those(table: &[Variable], wanted: &dyn Fn(&str) -> bool) -> Self {
         let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new(), counts: Vec::new() };
         let mut counters = Vec::new();

@@ -37,6 +37,10 @@ use wav::Wav;
 /// Rate of a recorder that a sound or a page needs and the scene does not have (Hz).
 const USUAL_RATE: f64 = 51_200.0;
 
+/// How files of a run may end beside its table.
+const WRITTEN: [&str; 10] =
+    [".csv", ".npy", ".parquet", ".svg", ".png", ".html", ".wav", "-envelope.csv", "-envelope.json", "-orders.csv"];
+
 /// Numbers up to which a table has all columns unless some are named: 17 MB as CSV.
 const WHOLE: u64 = 1_000_000;
 
@@ -73,9 +77,13 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
     let path = options.format.path(folder, &model.scene.name);
     spare_profiles(&model, &path)?;
     let chosen = chosen(&model.simulation, options)?;
-    let columns = if options.figure || options.page { Columns::all(model.simulation.table()) } else { chosen.clone() };
+    let columns = if options.figure || options.page {
+        Columns::all(model.simulation.table())
+    } else {
+        chosen.clone().with(model.simulation.table(), &accelerometer(&model.scene))
+    };
     let run_loop = RunLoop { grid: options.grid, profile: options.profile.as_ref(), shows: true };
-    let begin = Instant::now();
+    let (begin, earlier) = (Instant::now(), whole_file::earlier(&folder.join(&model.scene.name), &WRITTEN));
     let done = run_loop.simulate(&model.scene, &mut model.simulation, columns, growing.path(), &path)?;
     let sensors = |signals: &Signals| signals.indices(|name| shows_a_sensor(&model.scene, name));
     if let Some(noise) = &options.noise {
@@ -114,13 +122,18 @@ pub fn command(project: &Project, model: Model, options: &Options, folder: &Path
             );
         }
     }
-    if options.figure || options.page {
-        draw(project, &model, options, &done, folder)?;
-    }
+    let drawn = draw(project, &model, options, &done, folder);
     if let Some(recording) = done.recording.filter(|_| records) {
         keep(&recording, &options.columns, folder)?;
     }
+    drawn?;
+    whole_file::tell_earlier(&earlier);
     Ok(())
+}
+
+/// What shakes in the figure and in spectra: the first sensor, or the housing.
+fn accelerometer(scene: &Scene) -> String {
+    if scene.sensors.is_empty() { "housing.ay".to_owned() } else { scene.sensor_variable(0) }
 }
 
 /// Refuses to put the table in the place of a profile that the scene is made of.
@@ -195,10 +208,8 @@ fn with_recorder(model: Model, options: &Options) -> Result<Model> {
     }
     let rate = match (named, model.scene.recorder) {
         (Some(rate), _) => rate,
-        // Of a run-up each resonance is passed: samples at communication points would beat with it in the figure.
-        (None, None) if options.wav.is_some() || options.page || (options.figure && options.profile.is_some()) => {
-            USUAL_RATE
-        }
+        // Of a run-up each resonance is passed: samples at communication points would beat with it in its spectra.
+        (None, None) if options.wav.is_some() || options.page || options.profile.is_some() => USUAL_RATE,
         _ => return Ok(model),
     };
     let mut scene = model.scene;
@@ -209,7 +220,7 @@ fn with_recorder(model: Model, options: &Options) -> Result<Model> {
     Ok(Model { scene, simulation, ..model })
 }
 
-/// Spectra, figure and page.
+/// Spectra, and figure and page where they are wanted.
 fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder: &Path) -> Result<()> {
     // With the operating angle under which it ran.
     let scene = model.simulation.scene();
@@ -218,10 +229,7 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
         Some((recording, recorder)) => (recording, recorder.rate),
         None => (&done.signals, 1.0 / options.grid.step),
     };
-    let indices = match scene.sensors.is_empty() {
-        true => source.indices(|name| name == "housing.ay"),
-        false => source.indices(|name| name == scene.sensor_variable(0)),
-    };
+    let indices = source.indices(|name| name == accelerometer(scene));
     let mut samples = indices.first().map_or(Ok(Vec::new()), |&index| source.column(index))?;
     if source.path() == done.signals.path() && options.grid.ends_short() {
         // Spectra are of even times.
@@ -230,19 +238,19 @@ fn draw(project: &Project, model: &Model, options: &Options, done: &Done, folder
     let acceleration = Acceleration { samples, rate };
     let spectra = Spectra::new(scene, options.profile.as_ref(), acceleration);
     let envelope = spectra.write_envelope(folder)?;
-    let too_short = spectra.too_short();
+    let too_short = spectra.too_short().filter(|_| options.figure || options.page);
     if let Some(why) = &too_short {
         note!("note: {why}");
     }
-    let python = if options.page { Python::prepare_for_pages(project)? } else { Python::prepare(project)? };
-    let stem = folder.join(&scene.name);
     if options.figure {
         let recorded = done.recording.as_ref().filter(filtered).map_or(Path::new("-"), Signals::path);
-        let mut files: Vec<PathBuf> = vec![done.signals.path().to_owned(), recorded.to_owned(), stem.clone()];
+        let mut files: Vec<PathBuf> =
+            vec![done.signals.path().to_owned(), recorded.to_owned(), folder.join(&scene.name)];
         files.extend(envelope.clone());
-        print!("{}", python.run("run_figure.py", &files)?);
+        print!("{}", Python::draw(project, "run_figure.py", &files, &[])?);
     }
     if options.page {
+        let python = Python::prepare_for_pages(project)?;
         let orders = spectra.write_orders(folder)?;
         let angle = operating_angle(scene);
         let notes: Vec<String> = notes(options).into_iter().chain(angle).chain(too_short).collect();

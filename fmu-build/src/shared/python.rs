@@ -42,6 +42,8 @@ const SCRIPTS: &[(&str, &str)] = &[
 ];
 const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
 const OLDEST: (u32, u32) = (3, 9);
+/// How files of a figure end.
+pub(super) const FIGURES: &[&str] = &[".svg", ".png"];
 
 /// A Python environment that is ready.
 #[derive(Debug, Clone)]
@@ -118,12 +120,24 @@ impl Python {
         self
     }
 
-    /// Draws behind an answer that is out already, by one of this program's scripts: without Python there is no figure,
-    /// but no failure either.
-    pub fn draw<A: AsRef<OsStr>>(project: &Project, script: &str, arguments: impl IntoIterator<Item = A>) {
-        match Self::prepare(project).and_then(|python| python.run(script, arguments)) {
-            Ok(drawn) => eprint!("{drawn}"),
-            Err(why) => note!("no figure: {why:#}"),
+    /// Draws `<stem>.svg` and `.png` behind an answer that is out already, by one of this program's scripts, and gives
+    /// its lines: without Python there is no figure, but no failure either.
+    ///
+    /// # Errors
+    /// Of the script.
+    pub fn draw<A: AsRef<OsStr>>(
+        project: &Project,
+        script: &str,
+        arguments: impl IntoIterator<Item = A>,
+        stems: &[PathBuf],
+    ) -> Result<String> {
+        match Self::prepare(project) {
+            Ok(python) => python.run(script, arguments),
+            Err(why) => {
+                note!("note: no figure: {why:#}; --no-figure goes without");
+                stems.iter().for_each(|stem| whole_file::tell_earlier(&whole_file::earlier(stem, FIGURES)));
+                Ok(String::new())
+            }
         }
     }
 

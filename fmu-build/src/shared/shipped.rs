@@ -7,6 +7,9 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use brinell_scene_file::nearest;
 
+use super::talk::note;
+use super::whole_file;
+
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
 /// The model libraries, by `<platform>.<extension>`; none in a program that builds them from source.
@@ -39,20 +42,29 @@ pub fn files_of(scene: &str) -> Option<Vec<(&'static str, &'static str)>> {
     Some(std::iter::once(own).chain(SCENES.iter().filter(named)).copied().collect())
 }
 
-/// The text of a scene: of a file, or of a shipped scene by its bare name. A file of that name comes first.
+/// The text of a scene: of a file, which may be named without its `.toml`, or of a shipped scene by its bare name. A
+/// file of that very name comes first.
 ///
 /// # Errors
 /// Of the system, with the path; of a bare name that is neither, with the scenes there are.
 pub fn scene_text(path: &Path) -> Result<String> {
+    let toml = whole_file::beside(path, ".toml");
+    let without_ending = !path.is_file() && toml.is_file();
     if !path.exists()
         && let Some(name) = bare(path)
     {
         if let Some(text) = text(&format!("{name}.toml")) {
+            if without_ending && !fs::read_to_string(&toml).is_ok_and(|own| own == text) {
+                note!("note: {name} is the shipped scene; the file here, which differs, is {name}.toml");
+            }
             return Ok(text.to_owned());
         }
-        if path.extension().is_none() {
+        if path.extension().is_none() && !without_ending {
             bail!("{name}: neither a file nor a shipped scene; {}", meant(name));
         }
+    }
+    if without_ending {
+        return fs::read_to_string(&toml).with_context(|| toml.display().to_string());
     }
     if !path.exists()
         && let Some(scene) = path.file_stem().and_then(|stem| stem.to_str())

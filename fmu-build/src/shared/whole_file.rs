@@ -6,11 +6,14 @@
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
 use tempfile::{NamedTempFile, TempDir};
 
 use crate::interrupt::Temporary;
+
+use super::talk::note;
 
 /// Why a file was not written; the file of that name is what it was before.
 #[derive(Debug, thiserror::Error)]
@@ -61,6 +64,28 @@ pub(crate) fn beside(stem: &Path, end: &str) -> PathBuf {
     let mut name = stem.as_os_str().to_owned();
     name.push(end);
     name.into()
+}
+
+/// Files that are there, and when they were written.
+pub(crate) type Earlier = Vec<(PathBuf, SystemTime)>;
+
+/// What there is of these ends.
+pub(crate) fn earlier(stem: &Path, ends: &[&str]) -> Earlier {
+    let paths = ends.iter().map(|end| beside(stem, end));
+    paths.filter_map(|path| Some((path.clone(), written(&path)?))).collect()
+}
+
+/// Names those of them that were not written anew: they do not show what a command has written since.
+pub(crate) fn tell_earlier(earlier: &Earlier) {
+    let left = earlier.iter().filter(|(path, at)| written(path) == Some(*at));
+    let names: Vec<String> = left.map(|(path, _)| path.display().to_string()).collect();
+    if !names.is_empty() {
+        note!("note: of an earlier run, and left as they are: {}", names.join(", "));
+    }
+}
+
+fn written(path: &Path) -> Option<SystemTime> {
+    fs::metadata(path).and_then(|about| about.modified()).ok()
 }
 
 /// Writes a file by `fill`. Where the folder is missing it is made.

@@ -3,6 +3,7 @@
 mod answers;
 #[path = "../common/mod.rs"]
 mod common;
+mod files;
 mod messages;
 mod pages;
 mod reports;

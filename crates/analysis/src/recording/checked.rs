@@ -262,7 +262,6 @@ pub(crate) fn value_at(samples: &[f64], at: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::TAU;
 
     #[test]
     fn a_tachometer_makes_a_speed_that_wanders_constant() {

@@ -15,7 +15,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::package::Model;
-use crate::shared::{Drawn, Project, Python, contact_map, csv, number, whole, whole_file};
+use crate::shared::{Drawn, Project, contact_map, csv, number, whole, whole_file};
 
 /// Options of `stiffness` and `modes`, which sweep the cage angle.
 #[derive(Debug, Args)]
@@ -120,10 +120,7 @@ pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
     } else {
         print!("{}", summary(&plain, &balances, critical)?);
     }
-    if !options.drawn.no_figure {
-        let python = Python::prepare(project)?;
-        options.tell(python.run("stiffness.py", [stem])?);
-    }
+    options.tell(options.drawn.figure(project, "stiffness.py", [&stem], &[whole_file::beside(&stem, "-stiffness")])?);
     Ok(())
 }
 

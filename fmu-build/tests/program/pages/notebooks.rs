@@ -211,6 +211,14 @@ with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter("always")
     quiet = brinell.run("6205-healthy", stop=1e-4)
     assert not told, told
+    for wrong in (lambda: quiet["sensor.accel"], lambda: quiet.plot("sensor.accel")):
+        try:
+            wrong()
+        except KeyError as error:
+            assert "did you mean sensor.acceleration?" in str(error) and "'sensor' are sensor" in str(error), error
+        else:
+            raise AssertionError("there is no such signal")
+    assert "sensor.accel" not in quiet and quiet.get("sensor.accel") is None
     text = (root / "scenes/6205-healthy.toml").read_text(encoding="utf-8")
     scene = Path("asked.toml")
     scene.write_text(text.replace("load_n = [0.0, -1500.0]", "load_n = [0.0, -1.5]"), encoding="utf-8")

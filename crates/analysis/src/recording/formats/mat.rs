@@ -319,7 +319,8 @@ mod tests {
         ];
         let y = array(false, 2, [1, 2], "", &channels.concat());
         let whole = array(false, 2, [1, 1], "N15", &[fields(&["Y"]), y].concat());
-        let Contents { names, columns, .. } = contents(&file(false, &[whole.clone()])).unwrap();
+        let whole = file(false, &[whole]);
+        let Contents { names, columns, .. } = contents(&whole).unwrap();
         assert_eq!(names, ["force (N15.Y[1].Data)", "vibration_1 (N15.Y[2].Data)"]);
         assert_eq!(columns, [vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]);
         // Two arrays beside one name keep theirs apart.
@@ -331,7 +332,6 @@ mod tests {
         ];
         let two = file(false, &[array(false, 2, [1, 1], "s", &two.concat())]);
         assert_eq!(contents(&two).unwrap().names, ["left.a (s.a)", "left.b (s.b)"]);
-        let whole = file(false, &[whole]);
         for at in 0..whole.len() {
             let _ = contents(&whole[..at]);
             let mut bytes = whole.clone();
