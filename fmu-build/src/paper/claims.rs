@@ -226,11 +226,12 @@ pub(super) fn epps(case: &Case, found: &[Epps]) -> Result<Vec<Claim>> {
             thrown > 0.0,
         ),
         Claim::new(
-            "Event 4: it takes up its load again, which shakes the housing more than the entry; 2 and 3 do not come, the \
-             floor being out of reach",
+            "Event 4: it takes up its load again, which shakes the housing more than the entry; 2 and 3 do not come, \
+             as the floor is out of reach",
             "re-loading is an event of its own",
             format!(
-                "half its force again {:.2} ms after the edge; up to {loaded:.0} m/s² from the least force on, {entering:.0} before",
+                "half its force again {:.2} ms after the edge; up to {loaded:.0} m/s² from the least force on, \
+                 {entering:.0} before",
                 1e3 * half
             ),
             map.force[1] > 0.0 && least < half && half < 1.2 * map.traverse && loaded > entering,

@@ -21,5 +21,5 @@ pub use talk::bar;
 pub use whole_file::NotWritten;
 
 pub(crate) use numbers::{delimiter, digits, gigapascals, html_file, number, rate, seed, speed, whole};
-pub(crate) use project::Drawn;
+pub(crate) use python::Drawn;
 pub(crate) use talk::{detail, note};

@@ -2,14 +2,7 @@
 //! once and used again (contact maps, Python environments, compiled libraries).
 
 use std::env;
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-
-use anyhow::Result;
-use clap::Args;
-
-use super::python::{FIGURES, Python};
-use super::whole_file;
 
 /// The workspace's source and the folders for what is made.
 #[derive(Debug, Clone)]
@@ -79,42 +72,6 @@ impl Project {
             None if kind == "demo" => "brinell-demo".into(),
             None => PathBuf::new(),
         }
-    }
-}
-
-/// Where results go, and whether they are drawn.
-#[derive(Debug, Args)]
-pub(crate) struct Drawn {
-    /// Folder for what is written [default: the current one]
-    #[arg(short, long, value_name = "DIR")]
-    pub(crate) output: Option<PathBuf>,
-    /// Leave figures out; no Python is needed then
-    #[arg(long)]
-    pub(crate) no_figure: bool,
-}
-
-impl Drawn {
-    /// Draws `<stem>.svg` and `.png` by a script, unless figures are left out, and gives its lines.
-    ///
-    /// # Errors
-    /// Of the script.
-    pub(crate) fn figure<A: AsRef<OsStr>>(
-        &self,
-        project: &Project,
-        script: &str,
-        arguments: impl IntoIterator<Item = A>,
-        stems: &[PathBuf],
-    ) -> Result<String> {
-        if self.no_figure {
-            stems.iter().for_each(|stem| whole_file::tell_earlier(&whole_file::earlier(stem, FIGURES)));
-            return Ok(String::new());
-        }
-        Python::draw(project, script, arguments, stems)
-    }
-
-    /// The folder; `results` is the one of the command.
-    pub(crate) fn folder(&self, project: &Project, results: &str) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| project.results(results))
     }
 }
 

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 
 use super::project::Project;
 use super::talk::note;
@@ -43,7 +44,7 @@ const SCRIPTS: &[(&str, &str)] = &[
 const INTERPRETER: &str = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
 const OLDEST: (u32, u32) = (3, 9);
 /// How files of a figure end.
-pub(super) const FIGURES: &[&str] = &[".svg", ".png"];
+const FIGURES: &[&str] = &[".svg", ".png"];
 
 /// A Python environment that is ready.
 #[derive(Debug, Clone)]
@@ -181,6 +182,42 @@ impl Python {
             .envs(self.variables.iter().map(|(name, value)| (name, value)))
             .arg(script);
         command
+    }
+}
+
+/// Where results go, and whether they are drawn.
+#[derive(Debug, Args)]
+pub(crate) struct Drawn {
+    /// Folder for what is written [default: the current one]
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Leave figures out; no Python is needed then
+    #[arg(long)]
+    pub(crate) no_figure: bool,
+}
+
+impl Drawn {
+    /// Draws `<stem>.svg` and `.png` by a script, unless figures are left out, and gives its lines.
+    ///
+    /// # Errors
+    /// Of the script.
+    pub(crate) fn figure<A: AsRef<OsStr>>(
+        &self,
+        project: &Project,
+        script: &str,
+        arguments: impl IntoIterator<Item = A>,
+        stems: &[PathBuf],
+    ) -> Result<String> {
+        if self.no_figure {
+            stems.iter().for_each(|stem| whole_file::tell_earlier(&whole_file::earlier(stem, FIGURES)));
+            return Ok(String::new());
+        }
+        Python::draw(project, script, arguments, stems)
+    }
+
+    /// The folder; `results` is the one of the command.
+    pub(crate) fn folder(&self, project: &Project, results: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| project.results(results))
     }
 }
 

@@ -1,8 +1,8 @@
 //! A recording's file as named columns, and which of them is what.
 //!
-//! Columns are chosen by name or by number from 1. Left to itself, the signal is the only column whose name begins with `sensor.acceleration`, else with
-//! `sensor[`, `acc`, `vib` or `signal`, else the only one that does not count time or samples. Where several are left,
-//! none is taken.
+//! Columns are chosen by name or by number from 1. Left to itself, the signal is the only column whose name begins with
+//! `sensor.acceleration`, else with `sensor[`, `acc`, `vib` or `signal`, else the only one that does not count time or
+//! samples. Where several are left, none is taken.
 //!
 //! Time is a column that is called so, or has a unit of time and rises, or an unnamed first column beside others that
 //! rises like time. It must be even ([`sampling_times`]). A column of any other name that

@@ -106,7 +106,8 @@ pub(super) struct Clock<'a> {
     unit: &'a str,
     /// Sampling period: a median.
     period: f64,
-    /// Digits after the point of each time, less than none where it ends in zeros; empty where no step is uneven without them.
+    /// Digits after the point of each time, less than none where it ends in zeros; empty where all steps are even as it
+    /// is.
     decimals: Vec<i8>,
     /// Whether all times could have gone through single precision.
     single: bool,

@@ -13,8 +13,8 @@ const LONGEST_PREAMBLE: usize = 100;
 /// How a text's numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TextFormat {
-    /// What stands between columns; a blank is any number of blanks and tabs. Left out: a tab in `.tsv` and `.lvm`, else
-    /// a semicolon where the decimal sign is a comma, a comma in `.csv`, and a blank in all other files.
+    /// What stands between columns; a blank is any number of blanks and tabs. Left out: a tab in `.tsv` and `.lvm`,
+    /// else a semicolon where the decimal sign is a comma, a comma in `.csv`, and a blank in all other files.
     pub delimiter: Option<char>,
     /// Decimal sign, a point or a comma; left out, a point.
     pub decimal: Option<char>,

@@ -1,5 +1,5 @@
-//! LabVIEW's measurement files ([format][lvm]): a header that says how numbers are written, one that says how far apart
-//! the samples are, names of the channels, rows.
+//! LabVIEW's measurement files (National Instruments, *Specification for the LabVIEW Measurement File*): a header that
+//! says how numbers are written, one that says how far apart the samples are, names of the channels, rows.
 //!
 //! ```text
 //! LabVIEW Measurement
@@ -17,8 +17,6 @@
 //! ```
 //!
 //! Where `Delta_X` tells the rate, columns of times are left out. It is 1 where nobody set it.
-//!
-//! [lvm]: https://www.ni.com/en/support/documentation/supplemental/06/specification-for-the-labview-measurement-file---lvm-.html
 
 use super::array::Contents;
 use super::csv::{self, TextFormat};
