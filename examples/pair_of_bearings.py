@@ -23,7 +23,7 @@ bearings, against `tangent` at half a microsecond.
 import math
 
 import numpy as np
-from bearing import SCENES, Instance, build
+from bearing import SCENES, Instance, build, changed_scene
 from system_of_fmus import (
     GRID, asked, by_fmpy, component, connector, error, head, ours, row, structure, unit_fmu, write_system
 )  # fmt: skip
@@ -193,8 +193,32 @@ def description(name, guid, what, variables):
 """.encode()
 
 
-def pair(bearing, mounted, kind, start):
-    """The system: bearings first."""
+def shaft_values(mounted, start):
+    """The shaft's parameters, where it starts at rest."""
+    values = {"mass": MASS, "transverse_inertia": TRANSVERSE, "polar_inertia": POLAR, "speed": SPEED}
+    values.update({f"load.{axis}": load for axis, load in zip(AXES, standing_load(mounted) + ADDED)})
+    values.update({f"{name}.place": place for name, place in PLACES.items()})
+    values.update({f"{name}.offset": offset for name, offset in offsets(mounted).items()})
+    return {**values, **{f"start.{axis}": place for axis, place in zip(AXES, start)}}
+
+
+def bearings(mounted, folder):
+    """A bearing for each place as it is mounted there, by place."""
+    base, speed = SCENES / "7205-pair.toml", SPEED / (2 * math.pi)
+    scenes = [
+        changed_scene(
+            base,
+            f"7205-{name}",
+            {"bearing.contact_angle_deg": math.degrees(angle), "shaft.speed_hz": speed},
+            folder,
+        )
+        for name, angle in angles(mounted).items()
+    ]
+    return dict(zip(angles(mounted), build(scenes, folder)))
+
+
+def pair(fmus, mounted, kind, start):
+    """The system of these FMUs of bearings by place: bearings first."""
     elements, wires = [], []
     shaft_connectors = []
     for name in PLACES:
@@ -202,18 +226,13 @@ def pair(bearing, mounted, kind, start):
         connectors = [connector(motion, "input") for motion in MOTION]
         connectors += [connector(force, "output") for force in FORCES[kind]]
         values = {"bearing.contact_angle": angles(mounted)[name], "shaft.speed": SPEED}
-        elements.append(component(name, f"resources/{bearing}", connectors, values))
+        elements.append(component(name, f"resources/{fmus[name].name}", connectors, values))
         shaft_connectors += [connector(f"{name}.{force}", "input") for force in gives]
         shaft_connectors += [connector(f"{name}.{motion[6:]}", "output") for motion in MOTION]
         wires += [(name, a, "shaft", f"{name}.{b}") for a, b in zip(FORCES[kind], gives)]
         wires += [("shaft", f"{name}.{motion[6:]}", name, motion) for motion in MOTION]
     shaft_connectors += [connector(axis, "output") for axis in AXES]
-    values = {"mass": MASS, "transverse_inertia": TRANSVERSE, "polar_inertia": POLAR, "speed": SPEED}
-    values.update({f"load.{axis}": load for axis, load in zip(AXES, standing_load(mounted) + ADDED)})
-    values.update({f"{name}.place": place for name, place in PLACES.items()})
-    values.update({f"{name}.offset": offset for name, offset in offsets(mounted).items()})
-    values.update({f"start.{axis}": place for axis, place in zip(AXES, start)})
-    elements.append(component("shaft", "resources/shaft.fmu", shaft_connectors, values))
+    elements.append(component("shaft", "resources/shaft.fmu", shaft_connectors, shaft_values(mounted, start)))
     return structure("pair_of_bearings", elements, wires, 0.01)
 
 
@@ -233,25 +252,25 @@ def main():
     steps = (5e-6, 2e-5) if options.short else (1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4)
     stop = 2e-3 if options.short else 0.01
     options.output.mkdir(parents=True, exist_ok=True)
-    (bearing,) = build([SCENES / "7205-pair.toml"], options.output)
-    guid = "{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}"
-    text = description("shaft", guid, "A rigid shaft in two bearings", variables())
-    shaft = unit_fmu(options.output, "shaft", text)
-    host = Plain(bearing, options.mounted)
+    fmus = bearings(options.mounted, options.output)
+    host = Plain(fmus["left"], options.mounted)
     start, stiffness = host.q, host.stiffness()
     host.close()
+    guid = "{5f6f5a0e-2a4b-4a0f-8a55-0f3c5d9d7b21}"
+    text = description("shaft", guid, "A rigid shaft in two bearings", variables())
+    shaft = unit_fmu(options.output, "shaft", text, shaft_values(options.mounted, start))
     systems = {}
     for kind in FORCES:
         path = options.output / f"pair-{options.mounted}{'-' * bool(kind)}{kind.strip('_')}.ssp"
-        text = pair(bearing.name, options.mounted, kind, start)
-        systems[kind] = write_system(path, text, [bearing, shaft], options.ssp)
+        text = pair(fmus, options.mounted, kind, start)
+        systems[kind] = write_system(path, text, [*fmus.values(), shaft], options.ssp)
         print(path)
     print(f"stiffness: {stiffness[2, 2]:.4g} N/m along the axis, {stiffness[3, 3]:.4g} N m/rad against tilt")
     if options.build:
         return
-    exact = by_tangent(bearing, options.mounted, 5e-7, stop)
+    exact = by_tangent(fmus["left"], options.mounted, 5e-7, stop)
     head(steps, "whose", "algorithm", "the shaft gets")
-    cells = [error(exact, by_tangent, bearing, options.mounted, h, stop, body=SHAFT) for h in steps]
+    cells = [error(exact, by_tangent, fmus["left"], options.mounted, h, stop, body=SHAFT) for h in steps]
     row("plain host", "tangent stiffness", "`mean_force`", *cells)
     for whose, algorithm, handover, kind, run in ALGORITHMS:
         row(whose, algorithm, handover, *(error(exact, run, systems[kind], h, stop, body=SHAFT) for h in steps))

@@ -145,6 +145,12 @@ def variables():
     return found + [(name, "parameter", value) for name, value in parameters.items()]
 
 
+def disk_values(rest):
+    """The rotor's parameters, where it starts at rest."""
+    values = {"damping": DAMPING, "eccentricity": ECCENTRICITY, "rate": RATE, "load": -LOAD}
+    return {**values, "start.speed": FROM, "start.x": rest[0], "start.y": rest[1]}
+
+
 def pair_and_disk(bearing, rest):
     """The system: bearings first, then the rotor."""
     elements, wires, own = [], [], [connector("speed", "output")]
@@ -160,9 +166,7 @@ def pair_and_disk(bearing, rest):
         wires += [("disk", "speed", side, "shaft.speed")]
         wires += [("disk", f"{side}.{motion}", side, f"shaft.{motion}") for motion in MOTION]
     own += [connector(axis, "output") for axis in "xy"]
-    values = {"damping": DAMPING, "eccentricity": ECCENTRICITY, "rate": RATE, "load": -LOAD}
-    values.update({"start.speed": FROM, "start.x": rest[0], "start.y": rest[1]})
-    elements.append(component("disk", "resources/disk.fmu", own, values))
+    elements.append(component("disk", "resources/disk.fmu", own, disk_values(rest)))
     return structure("run_up", elements, wires, 0.7)
 
 
@@ -205,9 +209,10 @@ def main():
     scene = changed_scene(SCENES / "er16k-tb1-hosted-shaft.toml", "run-up-bearing", changes, folder)
     (fmu,) = build([scene], folder)
     guid = "{0c1d7a52-8f3e-4f0b-9d0e-6b1f7a2c9e54}"
-    disk = unit_fmu(folder, "disk", description("disk", guid, "A disk on an elastic shaft, run up", variables()))
     settle, rest = settled(fmu, {"shaft.speed": FROM})
     settle.close()
+    about = description("disk", guid, "A disk on an elastic shaft, run up", variables())
+    disk = unit_fmu(folder, "disk", about, disk_values(rest))
     ssp = folder / "run-up.ssp"
     write_system(ssp, pair_and_disk(fmu.name, rest), [fmu, disk], options.ssp)
     print(ssp)

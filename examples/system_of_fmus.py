@@ -24,6 +24,7 @@ Masters that read them:
 import os
 import shlex
 import subprocess
+import uuid
 import zipfile
 from contextlib import contextmanager
 from ctypes import c_int
@@ -35,7 +36,7 @@ import numpy as np
 from bearing import SCENES, Instance, Numbers, build, changed_scene, parser, percent, unzipped, whole
 from fmpy.fmi1 import FMICallException
 from fmpy.ssp.simulation import simulate_ssp
-from fmpy.ssp.ssd import ParameterSet, read_ssd
+from fmpy.ssp.ssd import read_ssd
 
 HERE = Path(__file__).resolve().parent / "system"
 MASS, STIFFNESS, LOAD = 3.0, 1e7, 500.0  # kg, N/m, N
@@ -46,13 +47,25 @@ PASSES, END = 4, 2  # of each step, iterated; number of the item `end` of `host.
 MOTION = {"x": "shaft.x", "y": "shaft.y", "vx": "shaft.vx", "vy": "shaft.vy", "ax": "shaft.ax", "ay": "shaft.ay"}
 
 
-def unit_fmu(folder, name, description):
-    """Compiles `system/<name>.c` and packs it with this model description; gives the FMU's path."""
+def unit_fmu(folder, name, description, values=None):
+    """Compiles `system/<name>.c` and packs it with this model description; gives the FMU's path.
+
+    `values` become start values of the FMU itself, for there are players that pass over those of an SSP file.
+    """
+    root, given = ElementTree.fromstring(description), []
+    for variable in root.iter("ScalarVariable"):
+        if variable.get("name") in (values or {}):
+            value = float(values[variable.get("name")])
+            variable.find("Real").set("start", repr(value))
+            given.append(f"{{{variable.get('valueReference')}, {value!r}}}")
+    if given:
+        root.set("guid", f"{{{uuid.uuid5(uuid.UUID(root.get('guid')), ','.join(given))}}}")
+        description = ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)
     headers = Path(fmpy.__file__).parent / "c-code"
     library = Path(folder) / f"{name}{fmpy.sharedLibraryExtension}"
     compiler = shlex.split(os.environ.get("CC", "cc"))
-    guid = ElementTree.fromstring(description).get("guid")
-    words = ["-std=c11", "-O2", "-shared", "-fPIC", f'-DUNIT_GUID="{guid}"', "-I", headers, HERE / f"{name}.c"]
+    words = ["-std=c11", "-O2", "-shared", "-fPIC", f'-DUNIT_GUID="{root.get("guid")}"', "-I", headers]
+    words += [f"-DUNIT_START={','.join(given)}"] * bool(given) + [HERE / f"{name}.c"]
     try:
         subprocess.run([*compiler, *map(str, words), "-lm", "-o", str(library)], check=True)
     except FileNotFoundError:
@@ -113,7 +126,8 @@ def connector(name, kind):
 
 
 def component(name, source, connectors, values):
-    """An FMU of a system with its connectors, and the values of its parameters if there are any."""
+    """An FMU of a system with its connectors, and the values of its parameters if there are any: the FMU has the same
+    as start values, for fmpy's `simulate_ssp` reads none of an SSP file."""
     listed = "".join(
         f'<ssv:Parameter name="{parameter}"><ssv:Real value="{float(value)!r}"/></ssv:Parameter>'
         for parameter, value in values.items()
@@ -151,6 +165,11 @@ def structure(name, components, wires, stop):
 """
 
 
+def rotor_values(start):
+    """The rotor's parameters, where it starts at rest."""
+    return {"mass": MASS, "stiffness": STIFFNESS, "load.y": -LOAD, "start.x": start[0], "start.y": start[1]}
+
+
 def bearing_and_rotor(bearing, force, start):
     """The system: bearing first."""
     forces = {f"shaft.{force}.{axis}": f"force.{axis}" for axis in "xy"}
@@ -158,12 +177,11 @@ def bearing_and_rotor(bearing, force, start):
     from_bearing = [connector(name, "output") for name in forces]
     to_rotor = [connector(name, "input") for name in forces.values()]
     from_rotor = [connector(name, "output") for name in MOTION]
-    parameters = {"mass": MASS, "stiffness": STIFFNESS, "load.y": -LOAD, "start.x": start[0], "start.y": start[1]}
     wires = [("bearing", a, "rotor", b) for a, b in forces.items()]
     wires += [("rotor", a, "bearing", b) for a, b in MOTION.items()]
     components = [
         component("bearing", f"resources/{bearing}", to_bearing + from_bearing, {}),
-        component("rotor", "resources/rotor.fmu", to_rotor + from_rotor, parameters),
+        component("rotor", "resources/rotor.fmu", to_rotor + from_rotor, rotor_values(start)),
     ]
     return structure("bearing_and_rotor", components, wires, 0.02)
 
@@ -304,15 +322,11 @@ def by_fmpy(body=ROTOR):
     name, sizes = body
 
     def run(ssp, h, stop):
-        parameters, start = ParameterSet(name="all"), []
-        for one in read_ssd(str(ssp)).system.elements:
-            for parameter in parameters_of(one):
-                if one.name == name and parameter.name.startswith("start."):
-                    start.append(float(parameter.value))
-                parameter.name = f"{one.name}.{parameter.name}"
-                parameters.parameters.append(parameter)
+        (body,) = (one for one in read_ssd(str(ssp)).system.elements if one.name == name)
+        given = {parameter.name: float(parameter.value) for parameter in parameters_of(body)}
+        start = [given[f"start.{axis}"] for axis in sizes]
         # It adds up the time: half a step less ends where the last step does. Its rows are those after each step.
-        found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h, parameter_set=parameters)
+        found = simulate_ssp(str(ssp), stop_time=stop - 0.5 * h, step_size=h)
         positions = np.column_stack([found[f"{name}.{axis}"] for axis in sizes])
         return np.vstack([start, positions[round(GRID / h) - 1 :: round(GRID / h)]])
 
@@ -374,11 +388,11 @@ def main():
     stop = 5e-3 if options.short else 0.02
     casings = ["free"] if options.build or options.short else list(CASINGS)
     fmus = fmus_in(options.output, casings)
-    rotor = unit_fmu(options.output, "rotor", (HERE / "rotor.xml").read_bytes())
     if not options.build:
         head(steps, "bearing", "casing", "whose", "algorithm", "the rotor gets")
     for (name, casing), (bearing, inside) in fmus.items():
         exact = whole_run(inside, GRID if options.build else stop)
+        rotor = unit_fmu(options.output, "rotor", (HERE / "rotor.xml").read_bytes(), rotor_values(exact[0]))
         systems = {}
         for force in ("force", "mean_force", "next_mean_force"):
             path = options.output / f"{bearing.stem.removeprefix('system-')}-{force}.ssp"

@@ -25,6 +25,13 @@ static void step(double value[COUNT], const double rate[INPUTS], double length);
 static void renew(Unit *unit) {
     memset(unit, 0, sizeof *unit);
     fresh(unit->value);
+#ifdef UNIT_START
+    /* Start values of this FMU's own model description, by reference. */
+    static const struct { int reference; double value; } given[] = {UNIT_START};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        unit->value[given[i].reference] = given[i].value;
+    }
+#endif
     start(unit->value);
 }
 

@@ -1,9 +1,23 @@
-"""Validates FMUs with fmpy: schema, names, units, model structure. Fails with everything that was found."""
+"""Validates FMUs: with fmpy model description, names, units, model structure; against the official schema of FMI 3.0,
+which FMI 2.0.4 refers to, terminals and icons. Fails with everything that was found."""
 
 import sys
+from pathlib import Path
+from zipfile import ZipFile
 
+import fmpy
 from fmpy.validation import validate_fmu
+from lxml import etree
 
-problems = [problem for fmu in sys.argv[1:] for problem in validate_fmu(fmu)]
+schema = etree.XMLSchema(etree.parse(Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"))
+
+
+def terminals(fmu):
+    with ZipFile(fmu) as archive, archive.open("terminalsAndIcons/terminalsAndIcons.xml") as file:
+        schema.validate(etree.parse(file))
+    return [f"{fmu}: {error.message}" for error in schema.error_log]
+
+
+problems = [problem for fmu in sys.argv[1:] for problem in validate_fmu(fmu) + terminals(fmu)]
 if problems:
     sys.exit("fmpy validate_fmu: " + "; ".join(problems))

@@ -18,6 +18,9 @@ use minijinja::context;
 use crate::package::render;
 use crate::shared::Interface;
 
+/// Version of the standard that the file keeps to: FMI 2.0.4 refers to that of 3.0, whose schema knows no other.
+const VERSION: &str = "3.0";
+
 /// What a terminal shows, by the member's name.
 #[rustfmt::skip]
 const MEMBERS: [&str; 38] = [
@@ -75,6 +78,5 @@ pub fn terminals(table: &[Variable], interface: Interface) -> Result<String> {
         context! { ring, kind, members, parts, description }
     });
     let template = include_str!("../../../assets/terminalsAndIcons.xml");
-    let version = interface.version.number();
-    render("terminalsAndIcons.xml", template, context! { version, terminals => terminals.to_vec() })
+    render("terminalsAndIcons.xml", template, context! { version => VERSION, terminals => terminals.to_vec() })
 }
