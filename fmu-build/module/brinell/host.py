@@ -142,6 +142,12 @@ def named(kind, axis):
     return f"shaft.{axis[:-1]}{kind}{axis[-1]}"
 
 
+# Of the search for rest [m, N/m]: how far the first step goes, over what differences are taken, where it gives up; what
+# stands for the stiffness of a shaft that touches nothing, a thousandth of any bearing's; and the radius at which tilts
+# count, of a bearing of middling size.
+FIRST, DIFFERENCE, SHORTEST, LOOSE, RADIUS, STEPS = 5e-6, 1e-9, 1e-13, 1e4, 0.02, 200
+
+
 class Bearing(Instance):
     """A bearing whose shaft the host moves. Vectors are arrays of x and y; of x, y and z with three degrees of freedom;
     of these and the tilts about x and y with five, along which what acts is a moment.
@@ -170,21 +176,57 @@ class Bearing(Instance):
     def rest(self, load):
         """During initialization: moves the shaft to where the bearing carries `load` and gives that position.
 
-        Newton with differences of 1 nm: the force is convex in the approach, so that from deep in contact the
-        way goes downhill. A housing on springs may yield a lot: 0.1 mm of approach are enough for some 1000 N. In space,
-        where rings move along and about each other as well, it begins at 20 µm.
+        Newton's method by differences, from a shaft that touches nothing yet. A step is at most twice as long as the one
+        before and is halved until what the load leaves has not grown: on the way lies a place of which the FMU knows no
+        force, beyond its contact map or without a balance of its elements, and a spall's edge bends the force.
         """
-        size = len(self.axes)
-        position = (1e-4 if size == 2 else 2e-5) * np.asarray(load) / np.linalg.norm(load)
-        for _ in range(100):
-            force = self.force_at(position)
-            slope = np.column_stack([(self.force_at(position + d) - force) / 1e-9 for d in 1e-9 * np.eye(size)])
-            change = np.linalg.solve(slope, -(force + load))
-            position = position + change
-            if np.linalg.norm(change) < 1e-12:
-                self.force_at(position)
-                return position
-        raise RuntimeError(f"no position found where the bearing carries {load} N")
+        load = np.asarray(load, dtype=float)
+        if len(load) != len(self.axes) or not np.linalg.norm(load) > 0.0:
+            raise ValueError(f"{self.name}: a load of {load}: as many numbers as it has axes, {', '.join(self.axes)}")
+        # Tilts count by what they move at a bearing's radius, so that all are lengths and forces.
+        reach = np.where([axis.startswith("tilt") for axis in self.axes], RADIUS, 1.0)
+        why = ""
+
+        def left(place):
+            nonlocal why
+            try:
+                return (self.force_at(place / reach) + load) / reach
+            except RuntimeError as error:
+                why = f": {error}"
+                self.restore()
+                return None
+
+        self.save()
+        place, longest, wanted = np.zeros(len(load)), FIRST, 1e-10 * np.linalg.norm(load / reach)
+        force = left(place)
+        for _ in range(STEPS if force is not None else 0):
+            if np.linalg.norm(force) <= wanted:
+                self.force_at(place / reach)
+                return place / reach
+            beside = [left(place + moved) for moved in DIFFERENCE * np.eye(len(load))]
+            if any(one is None for one in beside):
+                break
+            slope = np.column_stack([(one - force) / DIFFERENCE for one in beside])
+            # What nothing holds yet goes along its load.
+            step = np.linalg.solve(slope - LOOSE * np.eye(len(load)), -force)
+            step *= min(1.0, longest / np.linalg.norm(step))
+            there = left(place + step)
+            while there is None or np.linalg.norm(there) > np.linalg.norm(force) + wanted:
+                step *= 0.5
+                if np.linalg.norm(step) < SHORTEST:
+                    break
+                there = left(place + step)
+            else:
+                place, force, longest = place + step, there, 2.0 * np.linalg.norm(step)
+                longest = max(longest, FIRST)
+                continue
+            # Rounding: the FMU's own balance is as good.
+            if np.linalg.norm(force) <= 1e3 * wanted:
+                self.force_at(place / reach)
+                return place / reach
+            break
+        over = [] if force is None else [f"{x:.3g}" for x in force * reach]
+        raise RuntimeError(f"{self.name}: no position carries {load}; at {place / reach} {over} is left{why}")
 
     def linear(self):
         """Stiffness [N/m] and damping [N s/m] for small motion about the present state, elements in balance.
