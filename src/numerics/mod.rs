@@ -7,6 +7,7 @@ pub mod bytes;
 pub mod checksum;
 pub mod elementary;
 pub mod lanes;
+pub mod lists;
 pub mod low_pass;
 pub mod number;
 pub mod plane;

@@ -11,17 +11,13 @@
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 
 use super::error::RecordingError;
+use crate::numerics::lists::opened;
 
 /// Files claimed in this process and the names of the instances that write them.
 static CLAIMED: Mutex<Vec<(PathBuf, String)>> = Mutex::new(Vec::new());
-
-fn claimed() -> MutexGuard<'static, Vec<(PathBuf, String)>> {
-    // The list is whole after each change of it.
-    CLAIMED.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// A file that is open for writing, and nobody else's.
 #[derive(Debug)]
@@ -36,28 +32,36 @@ impl Claim {
     /// Claims a file for the instance `name` and empties it; the file is made if there is none.
     pub(super) fn new(path: &Path, name: &str) -> Result<Self, RecordingError> {
         let failed = |cause| RecordingError::Unwritable { path: path.to_owned(), cause };
-        let mut claimed = claimed();
-        let opened = open(path).map_err(failed)?;
+        let file = open(path).map_err(failed)?;
         // Some file systems cannot say where a file really is; names are then found by the path given.
         let canonical = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let (path, name) = (path.to_owned(), name.to_owned());
-        if let Some((_, other)) = claimed.iter().find(|(other, _)| *other == canonical) {
-            return Err(RecordingError::Claimed { path, name, other: other.clone() });
+        // Without the list the system's lock is what there is.
+        let listed = opened(&CLAIMED).map(|mut claimed| {
+            let other = claimed.iter().find(|(other, _)| *other == canonical).map(|(_, other)| other.clone());
+            if other.is_none() && file.is_some() {
+                claimed.push((canonical.clone(), name.clone()));
+            }
+            other
+        });
+        if let Some(Some(other)) = listed {
+            return Err(RecordingError::Claimed { path, name, other });
         }
-        let Some(file) = opened else { return Err(RecordingError::ClaimedElsewhere { path, name }) };
-        file.set_len(0).map_err(|cause| RecordingError::Unwritable { path, cause })?;
-        claimed.push((canonical.clone(), name));
-        Ok(Self { file, canonical })
+        let Some(file) = file else { return Err(RecordingError::ClaimedElsewhere { path, name }) };
+        let claim = Self { file, canonical };
+        claim.file.set_len(0).map_err(|cause| RecordingError::Unwritable { path, cause })?;
+        Ok(claim)
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        let mut claimed = claimed();
-        claimed.retain(|(canonical, _)| *canonical != self.canonical);
-        if claimed.is_empty() {
-            // Nothing is left of the list when the library is unloaded.
-            *claimed = Vec::new();
+        if let Some(mut claimed) = opened(&CLAIMED) {
+            claimed.retain(|(canonical, _)| *canonical != self.canonical);
+            if claimed.is_empty() {
+                // Nothing is left of the list when the library is unloaded.
+                *claimed = Vec::new();
+            }
         }
         // A child that was forked in the meantime has the file open as well, and closing it here would not free it.
         drop(self.file.unlock());

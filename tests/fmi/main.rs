@@ -11,6 +11,7 @@ mod both;
 mod counting;
 mod fmi2;
 mod fmi3;
+mod stack;
 #[path = "fmi3/host.rs"]
 mod three;
 #[path = "fmi2/host.rs"]

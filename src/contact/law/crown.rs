@@ -15,9 +15,10 @@
 
 use crate::geometry::line_contact::LINE_ORDER;
 use crate::numerics::lanes::{Lanes, Wide};
+use crate::numerics::lists::opened;
 use crate::numerics::ninth_root;
 use crate::numerics::number::{Number, Pair};
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 
 /// Steps of the table.
 const NODES: usize = 2048;
@@ -56,11 +57,11 @@ pub struct Carrying {
 impl Crown {
     /// As [`new`](Self::new), once for all who ask while it is in use.
     pub fn shared(depths: &[f64]) -> Arc<Self> {
-        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = known().in_use.iter().filter_map(Weak::upgrade).find(|crown| crown.depths == depths);
+        let found = opened(&KNOWN)
+            .and_then(|known| known.in_use.iter().filter_map(Weak::upgrade).find(|crown| crown.depths == depths));
         // Outside of the lock: others need not wait while a table is made.
         let crown = found.unwrap_or_else(|| Arc::new(Self::new(depths)));
-        let mut known = known();
+        let Some(mut known) = opened(&KNOWN) else { return crown };
         if !known.in_use.iter().any(|other| other.as_ptr() == Arc::as_ptr(&crown)) {
             known.in_use.retain(|other| other.strong_count() > 0);
             known.in_use.push(Arc::downgrade(&crown));

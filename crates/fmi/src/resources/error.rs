@@ -21,6 +21,8 @@ pub(crate) enum ResourceError {
     Model { path: PathBuf, cause: ModelFileError },
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    #[error("out of memory: an instance asks for {:.0} MB; free some, or allow this process more", *.0 as f64 / 1e6)]
+    Memory(usize),
 }
 
 impl ResourceError {

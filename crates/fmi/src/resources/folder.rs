@@ -14,6 +14,7 @@ use brinell::simulation::interface::table::guid;
 
 /// The model that the resources in a directory describe.
 pub(crate) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
+    ask_for_memory(directory)?;
     let text = read(&directory.join("scene.toml"))?;
     let path = directory.join("model.bin");
     let model = fs::read(&path).map_err(|cause| ResourceError::unreadable(&path, cause))?;
@@ -24,6 +25,19 @@ pub(crate) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
     let set_up = |map| Simulation::with_shared_map(scene, profiles.iter().map(String::as_str), map);
     SharedModel::obtain(guid, &directory.join("map.bin"), set_up)
 }
+
+/// Asks for as much memory as setting up the resources in a directory takes, and gives it back: an allocation that fails
+/// later would end the host's process.
+fn ask_for_memory(directory: &Path) -> Result<(), ResourceError> {
+    let files = fs::read_dir(directory).into_iter().flatten().flatten();
+    let bytes: u64 = files.filter_map(|file| file.metadata().ok()).map(|file| file.len()).sum();
+    let needed = usize::try_from(bytes.saturating_mul(PER_BYTE)).unwrap_or(usize::MAX).saturating_add(AT_LEAST);
+    Vec::<u8>::new().try_reserve_exact(needed).map_err(|_| ResourceError::Memory(needed))
+}
+
+/// Bytes that setting up takes for each of the resources, which are read and decoded; and those of an instance itself.
+const PER_BYTE: u64 = 4;
+const AT_LEAST: usize = 4 << 20;
 
 /// The path of a file in the directory, given by its bare name.
 fn beside(directory: &Path, name: &str) -> Result<PathBuf, ResourceError> {

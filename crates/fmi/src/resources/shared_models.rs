@@ -12,10 +12,11 @@
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use super::error::ResourceError;
 use brinell::contact::map::{ContactMaps, HEAD, TAIL};
+use brinell::numerics::lists::opened;
 use brinell::simulation::{Simulation, SimulationError};
 
 /// What tells one stored map from another: length, head and tail, which hold version, fingerprint and checksum.
@@ -74,7 +75,7 @@ struct Model {
     label: Option<Label>,
     map: Option<Arc<ContactMaps>>,
     /// Every variable at its start value.
-    prototype: Mutex<Simulation>,
+    prototype: Simulation,
 }
 
 /// A model with the number of its users.
@@ -85,9 +86,11 @@ struct Entry {
 
 static MODELS: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
-/// What a lock guards is in order even if a panic has passed by: nothing that is done under it can stop half-way.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// The model of the list that is of this GUID and this map, with one more user.
+fn used_again(models: &mut [Entry], guid: &str, label: Option<Label>) -> Option<SharedModel> {
+    let known = models.iter_mut().find(|known| known.model.guid == guid && known.model.label == label)?;
+    known.users += 1;
+    Some(SharedModel(Arc::clone(&known.model)))
 }
 
 /// One user's part in a model.
@@ -96,7 +99,7 @@ pub(crate) struct SharedModel(Arc<Model>);
 
 impl SharedModel {
     /// The model of this GUID with the map in this file, if there is one: another user's, or what `set_up` makes of the
-    /// map.
+    /// map. Of users who come together each sets it up, and the first one's is that of all.
     pub(super) fn obtain(
         guid: String,
         map_file: &Path,
@@ -104,19 +107,25 @@ impl SharedModel {
     ) -> Result<Self, ResourceError> {
         let mut stored = StoredMap::find(map_file)?;
         let label = stored.as_ref().map(|stored| stored.label);
-        // Held to the end, so that users who come together set a model up once.
-        let mut models = lock(&MODELS);
-        if let Some(known) = models.iter_mut().find(|known| known.model.guid == guid && known.model.label == label) {
-            known.users += 1;
-            return Ok(Self(Arc::clone(&known.model)));
+        let mut same_map = None;
+        if let Some(mut models) = opened(&MODELS) {
+            if let Some(known) = used_again(&mut models, &guid, label) {
+                return Ok(known);
+            }
+            let of_map = models.iter().find(|known| label.is_some() && known.model.label == label);
+            same_map = of_map.and_then(|known| known.model.map.clone());
         }
-        let same_map = models.iter().find(|known| label.is_some() && known.model.label == label);
-        let map = match (same_map.and_then(|known| known.model.map.clone()), &mut stored) {
+        let map = match (same_map, &mut stored) {
             (None, Some(stored)) => Some(Arc::new(stored.read()?)),
             (map, _) => map,
         };
-        let prototype = Mutex::new(set_up(map.clone())?);
+        let prototype = set_up(map.clone())?;
         let model = Arc::new(Model { guid, label, map, prototype });
+        // Without the list it is a model of this user alone.
+        let Some(mut models) = opened(&MODELS) else { return Ok(Self(model)) };
+        if let Some(first) = used_again(&mut models, &model.guid, label) {
+            return Ok(first);
+        }
         models.push(Entry { model: Arc::clone(&model), users: 1 });
         Ok(Self(model))
     }
@@ -126,24 +135,28 @@ impl SharedModel {
         &self.0.guid
     }
 
-    /// A simulation with all variables at their start values.
-    pub(crate) fn simulation(&self) -> Simulation {
-        lock(&self.0.prototype).clone()
+    /// A simulation with all variables at their start values. On the heap: it is larger than a thread of a host may
+    /// have stack to spare.
+    pub(crate) fn simulation(&self) -> Box<Simulation> {
+        Box::new(self.0.prototype.clone())
     }
 }
 
 impl Drop for SharedModel {
     fn drop(&mut self) {
-        let mut models = lock(&MODELS);
+        let Some(mut models) = opened(&MODELS) else { return };
+        let mut last = None;
         if let Some(index) = models.iter().position(|known| Arc::ptr_eq(&known.model, &self.0)) {
             models[index].users -= 1;
             if models[index].users == 0 {
-                models.swap_remove(index);
+                last = Some(models.swap_remove(index));
             }
         }
         if models.is_empty() {
             *models = Vec::new();
         }
+        drop(models);
+        drop(last);
     }
 }
 
@@ -173,7 +186,7 @@ mod tests {
 
     /// Whether the list has a model of this GUID. Other tests of this program have their own.
     fn is_listed(guid: &str) -> bool {
-        lock(&MODELS).iter().any(|known| known.model.guid == guid)
+        opened(&MODELS).unwrap().iter().any(|known| known.model.guid == guid)
     }
 
     #[test]
