@@ -2,9 +2,12 @@
 
 use crate::two::any_host::{Host, Version};
 use crate::two::{Line, bits};
+use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::{Causality, Kind};
 use brinell_fmi::fmi2::{Component, FmuState, Status};
-use std::ptr;
+use brinell_tests::resources::Resources;
+use std::sync::Arc;
+use std::{fs, ptr};
 
 pub(crate) type Call = fn(Component) -> Status;
 /// A function, what is said about it, and a call of it.
@@ -285,5 +288,56 @@ pub(crate) fn discards_values_outside_their_range<V: Version>() {
         assert_eq!(bits(&host.all()), before);
         // The run goes on.
         assert_eq!(host.advance(0.0, 1e-5), Status::Ok);
+    }
+}
+
+/// Resources of an FMU that lists the variables of model exchange.
+pub(crate) fn for_both_kinds(scene: &str) -> Arc<Resources> {
+    let resources = Resources::of(scene);
+    fs::write(resources.directory.join("interface"), "model-exchange").unwrap();
+    resources.into()
+}
+
+/// An instance for co-simulation of an FMU for both kinds shows states, their derivatives and event indicators from
+/// initialization to the end, with their derivatives, and steps to the same bits as one that nobody asks for them. In
+/// an FMU for co-simulation alone there are no such variables.
+pub(crate) fn shows_the_variables_of_model_exchange_when_stepped<V: Version>(
+    derive: impl Fn(&Host<V>, u32, u32) -> Result<f64, Status>,
+) {
+    for scene in ["er16k-tb1", "er16k-inner", "6205-hosted", "6205-epps", "6205-irregular-cage", "7205-preloaded"] {
+        let (plain, host) = (Host::<V>::of(scene), Host::<V>::with(for_both_kinds(scene), "both", true));
+        let mut own = host.simulation().clone();
+        let exchanged = own.exchange_variables();
+        let references: Vec<u32> = exchanged.iter().map(|variable| variable.reference).collect();
+        let mut agrees = |own: &mut Simulation, when: &str| {
+            let shown = host.get(&references).unwrap_or_else(|status| panic!("{when}: {status:?}: {:?}", host.lines()));
+            let expected = references.iter().map(|&reference| own.exchange_value(reference).unwrap().unwrap());
+            let expected = expected.collect::<Vec<_>>();
+            assert_eq!(bits(&shown), bits(&expected), "{scene} {when}");
+        };
+        for host in [&plain, &host] {
+            assert_eq!(host.begin(None, 0.0, None), Status::Ok);
+        }
+        agrees(&mut own, "in initialization mode");
+        own.initialize(0.0).unwrap();
+        assert_eq!([plain.exit(), host.exit()], [Status::Ok; 2]);
+        for n in 0..40 {
+            agrees(&mut own, "at a communication point");
+            own.step(STEP).unwrap();
+            for host in [&plain, &host] {
+                assert_eq!(host.advance(f64::from(n) * STEP, STEP), Status::Ok, "{:?}", host.lines());
+            }
+        }
+        assert_eq!(bits(&plain.all()), bits(&host.all()), "{scene}");
+        let named = |name: &str| exchanged.iter().find(|variable| variable.name == name).unwrap().reference;
+        let (speed, cage) = (host.reference("shaft.speed"), named("der(state.cage.angle)"));
+        // The cage turns with the shaft by its kinematics: 0.38 to 0.42 of it in these bearings.
+        let share = derive(&host, cage, speed).unwrap();
+        assert!((0.35..0.45).contains(&share), "{scene}: {share}");
+        assert_eq!(host.terminate(), Status::Ok);
+        agrees(&mut own, "after the end");
+        for references in [&references[..1], &references[..]] {
+            assert_eq!(plain.get(references), Err(Status::Error), "{scene}");
+        }
     }
 }

@@ -40,6 +40,10 @@ pub struct ForceChange {
     pub path_rate: Vec<f64>,
     /// Of the rates of their absolute radial velocities (m/s²).
     pub radial_acceleration: Vec<f64>,
+    /// Of the rates of their axial positions (m/s); of no length in the plane.
+    pub axial_rate: Vec<f64>,
+    /// Of the rates of their axial velocities (m/s²); of no length in the plane.
+    pub axial_acceleration: Vec<f64>,
     /// Of the forces (N) and moments (N m) on the inner and on the outer ring.
     pub rings: [[f64; COORDINATES]; 2],
     /// Of each contact angle on the inner and on the outer raceway (rad); of no length in the plane.
@@ -106,9 +110,11 @@ impl ForceChange {
         Self { inner, outer, path_rate, radial_acceleration, ..Self::default() }
     }
 
-    /// The same, with room for the contact angles of `count` balls of rings in space.
+    /// The same, with room for what `count` balls of rings in space do along the axis, and for their contact angles.
     pub fn in_space(count: usize) -> Self {
-        Self { contact_angles: [(); 2].map(|()| vec![0.0; count]), ..Self::new(count) }
+        let [axial_rate, axial_acceleration] = [(); 2].map(|()| vec![0.0; count]);
+        let contact_angles = [(); 2].map(|()| vec![0.0; count]);
+        Self { axial_rate, axial_acceleration, contact_angles, ..Self::new(count) }
     }
 }
 

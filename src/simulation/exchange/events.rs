@@ -8,6 +8,11 @@ use crate::simulation::{Simulation, SimulationError};
 /// How far (rad) a contact goes beyond the end of its cell before the indicator changes its sign: 2 pm on a raceway. In
 /// the next cell it is then as far within, and no rounding makes a second event of the first.
 const BEYOND: f64 = 1e-10;
+/// What the indicators count in: approaches in µm, angles in hundredths of a radian, so that they are of order one.
+const APPROACH: f64 = 1e-6;
+const ANGLE: f64 = 1e-2;
+/// The most that an indicator of angles shows (rad), as where waves are all that a contact meets and no cell ends.
+const WIDEST: f64 = std::f64::consts::TAU;
 
 impl Simulation {
     /// Number of event indicators: two onsets of each element, and each contact that defects concern.
@@ -15,8 +20,8 @@ impl Simulation {
         2 * self.run.model.element_count + watched(&self.run.model, &self.run.state.progress.cells, true).count()
     }
 
-    /// The event indicators: approaches of inner contacts and of outer ones (m); then the angles (rad) that contacts
-    /// have left to the nearer end of their cell.
+    /// The event indicators: approaches of inner contacts and of outer ones (µm); then the angles (0.01 rad) that
+    /// contacts have left to the nearer end of their cell.
     ///
     /// # Errors
     /// Before `initialize`: an equilibrium that does not exist.
@@ -25,11 +30,11 @@ impl Simulation {
         let count = self.run.model.element_count;
         let contacts = &self.present.evaluation.forces.contacts;
         let approaches = contacts.inner_approach[..count].iter().chain(&contacts.outer_approach[..count]);
-        values.iter_mut().zip(approaches).for_each(|(value, approach)| *value = *approach);
+        values.iter_mut().zip(approaches).for_each(|(value, approach)| *value = approach / APPROACH);
         let mut rest = values.iter_mut().skip(2 * count);
         self.each_cell(|within, _, _| {
             if let Some(value) = rest.next() {
-                *value = within + BEYOND;
+                *value = (within + BEYOND).min(WIDEST) / ANGLE;
             }
         });
         Ok(())

@@ -14,8 +14,10 @@
 //! What belongs to communication steps does not change here but at events: `mean_force` and `next_mean_force` are the
 //! force at the last one. The recorder does not run.
 
+mod dependencies;
 mod derivatives;
 mod events;
+mod part;
 mod states;
 mod variables;
 

@@ -1,5 +1,6 @@
 //! The continuous states: where they are kept, and how they change.
 
+use super::part::{Derivative, Part};
 use crate::dynamics::parameters::WholeAngle;
 use crate::numerics::lanes::QUAD;
 use crate::simulation::integration::{Problem, check_rings};
@@ -105,10 +106,17 @@ impl Simulation {
     pub(super) fn nominal(&self, place: Place) -> f64 {
         const POSITION: f64 = 1e-5;
         const VELOCITY: f64 = 1e-2;
+        // Those of the inputs of the same kind.
+        const TILT: f64 = 1e-3;
+        const TILTING: f64 = 1.0;
         match place {
-            Place::Slot(i) if self.run.model.layout.is_position(i) => POSITION,
-            Place::Mode(i) if i % 2 == 0 => POSITION,
-            Place::Slot(_) | Place::Mode(_) => VELOCITY,
+            Place::Slot(i) => match Part::of(&self.run.model.layout, i) {
+                Some(Part::Ring(_, 3.., Derivative::Position)) => TILT,
+                Some(Part::Ring(_, 3.., Derivative::Rate)) => TILTING,
+                _ if self.run.model.layout.is_position(i) => POSITION,
+                _ => VELOCITY,
+            },
+            Place::Mode(i) => [POSITION, VELOCITY][i % 2],
             Place::Cage | Place::Frame(_) => 1.0,
         }
     }

@@ -2,7 +2,9 @@
 //!
 //! They stand behind the variable table: their references begin one after it, which leaves one for the time of FMI 3.0.
 
+use super::part::{Derivative, Part};
 use super::states::Place;
+use crate::simulation::interface::as_many;
 use crate::simulation::interface::table::Unit;
 use crate::simulation::{Simulation, SimulationError};
 
@@ -28,7 +30,7 @@ pub struct ExchangeVariable {
     pub reference: u32,
     /// What it is.
     pub role: ExchangeRole,
-    /// Unit; `None` for the derivative of what has none of the table.
+    /// Unit.
     pub unit: Unit,
     /// Order of magnitude.
     pub nominal: f64,
@@ -59,18 +61,61 @@ impl Simulation {
     /// # Errors
     /// As of [`state_derivatives`](Self::state_derivatives).
     pub fn exchange_value(&mut self, reference: u32) -> Result<Option<f64>, SimulationError> {
-        let Some(role) = self.exchange_role(reference) else { return Ok(None) };
-        let (count, number) = match role {
-            ExchangeRole::State(number) | ExchangeRole::Derivative(number) => (self.continuous_state_count(), number),
-            ExchangeRole::Indicator(number) => (self.event_indicator_count(), number),
-        };
-        let mut values = vec![0.0; count];
-        match role {
-            ExchangeRole::State(_) => self.continuous_states(&mut values)?,
-            ExchangeRole::Derivative(_) => self.state_derivatives(&mut values)?,
-            ExchangeRole::Indicator(_) => self.event_indicators(&mut values)?,
+        let mut value = [0.0];
+        match self.exchange_role(reference) {
+            None => Ok(None),
+            Some(_) => self.exchange_reals(&[reference], &mut value).map(|()| Some(value[0])),
         }
-        Ok(Some(values[number]))
+    }
+
+    /// Reads reals of the table and behind it, one for each place in `values`.
+    ///
+    /// # Errors
+    /// As of [`reals`](Self::reals) and [`exchange_value`](Self::exchange_value).
+    pub fn exchange_reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), SimulationError> {
+        let rows = self.interface.table.len();
+        if references.iter().all(|&reference| (reference as usize) < rows) {
+            return self.reals(references, values);
+        }
+        as_many(references.len(), values.len())?;
+        let [mut states, mut derivatives, mut indicators] = [const { Vec::new() }; 3];
+        for (value, &reference) in values.iter_mut().zip(references) {
+            // Each list is filled for the first that is in it.
+            *value = match self.exchange_role(reference) {
+                Some(ExchangeRole::State(number)) => {
+                    if states.is_empty() {
+                        states = vec![0.0; self.continuous_state_count()];
+                        self.continuous_states(&mut states)?;
+                    }
+                    states[number]
+                }
+                Some(ExchangeRole::Derivative(number)) => {
+                    if derivatives.is_empty() {
+                        derivatives = vec![0.0; self.continuous_state_count()];
+                        self.state_derivatives(&mut derivatives)?;
+                    }
+                    derivatives[number]
+                }
+                Some(ExchangeRole::Indicator(number)) => {
+                    if indicators.is_empty() {
+                        indicators = vec![0.0; self.event_indicator_count()];
+                        self.event_indicators(&mut indicators)?;
+                    }
+                    indicators[number]
+                }
+                None => {
+                    self.reals(&[reference], std::slice::from_mut(value))?;
+                    continue;
+                }
+            };
+        }
+        Ok(())
+    }
+
+    /// Name of a variable behind the table; `None` if it is none.
+    pub fn exchange_name(&self, reference: u32) -> Option<String> {
+        let found = self.exchange_variables().into_iter().find(|variable| variable.reference == reference);
+        found.map(|variable| variable.name)
     }
 
     /// All variables that only Model Exchange has, by reference: states, their derivatives, indicators.
@@ -88,6 +133,7 @@ impl Simulation {
             let (unit, nominal) = match unit {
                 Unit::Metre => (Unit::MetrePerSecond, 1e-2),
                 Unit::MetrePerSecond => (Unit::MetrePerSecondSquared, 10.0),
+                Unit::RadianPerSecond => (Unit::RadianPerSecondSquared, 1000.0),
                 _ => (Unit::RadianPerSecond, 100.0),
             };
             let role = ExchangeRole::Derivative(number);
@@ -95,21 +141,19 @@ impl Simulation {
         }
         let count = self.run.model.element_count;
         for number in 0..self.event_indicator_count() {
-            let (name, what, unit, nominal) = if number < 2 * count {
+            let (name, what) = if number < 2 * count {
                 let (j, side) = (number % count + 1, ["inner", "outer"][number / count]);
-                let what = format!("approach of element {j} and the {side} raceway; 0 where the contact begins");
-                (format!("element[{j}].{side}_contact"), what, Unit::Metre, 1e-6)
+                let what = format!("approach of element {j} and the {side} raceway in µm; 0 where the contact begins");
+                (format!("element[{j}].{side}_contact"), what)
             } else {
                 let k = number - 2 * count + 1;
                 (
                     format!("cell[{k}]"),
-                    format!("angle that contact {k} has left to the end of its part of a defect"),
-                    Unit::Radian,
-                    1e-2,
+                    format!("angle in 0.01 rad that contact {k} has left to the end of its part of a defect"),
                 )
             };
             let role = ExchangeRole::Indicator(number);
-            push(format!("event.{name}"), format!("Event indicator: {what}"), role, unit, nominal);
+            push(format!("event.{name}"), format!("Event indicator: {what}"), role, Unit::One, 1.0);
         }
         variables
     }
@@ -132,21 +176,34 @@ impl Simulation {
             }
             Place::Slot(i) => i,
         };
-        let unit = if layout.is_position(i) { Unit::Metre } else { Unit::MetrePerSecond };
-        let w = layout.radial_velocity;
-        let (name, what) = if i < w {
-            (format!("element[{}].path", i + 1), format!("radial path of element {}", i + 1))
-        } else if i < 2 * w {
-            let j = i - w + 1;
-            (format!("element[{j}].radial_velocity"), format!("absolute radial velocity of element {j}"))
-        } else if let Some(k) = layout.sensor_indices().position(|start| i == start || i == start + 1) {
-            let what = if layout.is_position(i) { "displacement" } else { "velocity" };
-            (format!("sensor[{}].{what}", k + 1), format!("{what} of sensor {} along its direction", k + 1))
-        } else {
-            let name = layout.name(i);
-            let what = format!("{name} of the equations of motion");
-            (name, what)
+        let of = |tilts, of| match (tilts, of) {
+            (false, Derivative::Position) => Unit::Metre,
+            (false, Derivative::Rate) => Unit::MetrePerSecond,
+            (true, Derivative::Position) => Unit::Radian,
+            (true, Derivative::Rate) => Unit::RadianPerSecond,
         };
-        (name, what, unit)
+        let element = |j: usize, names: [&str; 2], whats: [&str; 2], rate: Derivative| {
+            let [name, what] = [names, whats].map(|two| two[usize::from(rate == Derivative::Rate)]);
+            (format!("element[{}].{name}", j + 1), format!("{what} of element {}", j + 1), of(false, rate))
+        };
+        match Part::of(layout, i) {
+            Some(Part::Radial(j, rate)) => {
+                element(j, ["path", "radial_velocity"], ["radial path", "absolute radial velocity"], rate)
+            }
+            Some(Part::Axial(j, rate)) => {
+                element(j, ["axial", "axial_velocity"], ["axial position", "axial velocity"], rate)
+            }
+            Some(Part::Sensor(k, rate)) => {
+                let what = ["displacement", "velocity"][usize::from(rate == Derivative::Rate)];
+                let text = format!("{what} of sensor {} along its direction", k + 1);
+                (format!("sensor[{}].{what}", k + 1), text, of(false, rate))
+            }
+            Some(Part::Ring(_, axis, rate)) => {
+                let name = layout.name(i);
+                let what = format!("{name} of the equations of motion");
+                (name, what, of(axis > 2, rate))
+            }
+            None => (String::new(), String::new(), Unit::One),
+        }
     }
 }

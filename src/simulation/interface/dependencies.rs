@@ -98,7 +98,7 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
 }
 
 /// Whether an output depends on an input or a parameter in initialization mode.
-fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
+pub(in crate::simulation) fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
     match output {
         Q::CageAngle => known == Q::Parameter(Parameter::CageInitialAngle),
         Q::ElementAngle(_) => matches!(known, Q::Parameter(Parameter::CageInitialAngle | Parameter::CageSeed)),
@@ -107,7 +107,7 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
             Q::Parameter(Parameter::DefectAngle(index)) => scene.first_defect_of(j) == Some(index),
             _ => false,
         },
-        Q::CageSpeed => matches!(known, Q::Speed(_) | Q::Parameter(Parameter::CageSlip | Parameter::CageSeed)),
+        Q::CageSpeed => turns(known, scene) || known == Q::Parameter(Parameter::CageSeed),
         // At rest.
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
         Q::Position(..)
@@ -136,6 +136,17 @@ fn starts_from(output: Q, known: Q, scene: &Scene) -> bool {
             (_, Some(Input::Speed(_) | Input::Load(..) | Input::Position(..) | Input::Velocity(..))) => true,
             (_, None) => false,
         },
+    }
+}
+
+/// Whether the nominal cage's speed depends on an input or a parameter: in space, where parameters are of contact
+/// angles, by the angle at which balls roll.
+pub(in crate::simulation) fn turns(known: Q, scene: &Scene) -> bool {
+    let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
+    match known {
+        Q::Speed(_) | Q::Parameter(Parameter::CageSlip) => true,
+        Q::Parameter(Parameter::ContactAngle | Parameter::OperatingAngle) => in_space,
+        _ => false,
     }
 }
 

@@ -17,10 +17,9 @@ pub use log_category::Category;
 pub use outputs::{Angles, Outputs};
 pub use quantity::{Count, Parameter, Quantity, RingName};
 
+pub(in crate::simulation) use dependencies::{starts_from, turns};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
 pub(in crate::simulation) use suggested_step::{Wiring, of_first_order, suggested_step};
-pub(in crate::simulation) use variables::{
-    COMPUTED, FIXED, Interface, as_many, not_settable, out_of_range, wrong_type,
-};
+pub(in crate::simulation) use variables::{COMPUTED, FIXED, Interface, as_many, not_settable, wrong_type};

@@ -1,17 +1,10 @@
 //! Model exchange (FMI 2.0, chapter 3): its functions in their order, out of it, and what they give.
 
-use crate::both::{probes, refuse};
-use crate::two::{Call, Host, Log, Resources};
+use crate::both::{self, probes, refuse};
+use crate::two::{Call, Host, Log, Resources, Two};
 use brinell_fmi::fmi2::*;
+use std::ptr;
 use std::sync::Arc;
-use std::{fs, ptr};
-
-/// Resources as `brinell build --kind both` packs them.
-fn resources(scene: &str) -> Arc<Resources> {
-    let resources = Resources::of(scene);
-    fs::write(resources.directory.join("interface"), "model-exchange").unwrap();
-    resources.into()
-}
 
 fn made(resources: &Resources) -> (Component, Box<Log>) {
     let (guid, location) = (&resources.guid, resources.uri());
@@ -20,7 +13,7 @@ fn made(resources: &Resources) -> (Component, Box<Log>) {
 
 /// An instance in event mode.
 fn started(scene: &str) -> Host {
-    let resources = resources(scene);
+    let resources = both::for_both_kinds(scene);
     let host = Host::of_parts(made(&resources), resources);
     host.start();
     host
@@ -124,4 +117,64 @@ fn a_state_saved_under_one_kind_is_refused_under_the_other() {
     let elsewhere = stepped.deserialize(&bytes).unwrap();
     assert_eq!(stepped.restore(elsewhere), Status::Error);
     assert!(stepped.lines().pop().unwrap().message.contains("other kind"));
+}
+
+#[test]
+fn an_instance_for_co_simulation_shows_what_an_fmu_for_both_kinds_lists() {
+    both::shows_the_variables_of_model_exchange_when_stepped::<Two>(|host, unknown, known| {
+        host.directional(&[unknown], &[known], &[1.0]).map(|values| values[0])
+    });
+}
+
+#[test]
+fn nominals_may_be_read_before_initialization_and_states_set_one_by_one() {
+    let resources = both::for_both_kinds("er16k-tb1");
+    let host = Host::of_parts(made(&resources), resources);
+    assert!(list(&host, STATES, fmi2GetNominalsOfContinuousStates).iter().all(|nominal| *nominal > 0.0));
+    host.start();
+    let first = host.simulation().exchange_variables()[0].reference;
+    let state = host.save();
+    // Of the modes of a run only that between events lets states be set.
+    host.refuses(state, &["fmi2SetReal"], |host| host.set(&[first], &[1e-6]));
+    // SAFETY: any handle may be passed.
+    assert_eq!(unsafe { fmi2EnterContinuousTimeMode(host.c) }, Status::Ok);
+    let before = list(&host, STATES, fmi2GetContinuousStates);
+    let speed = host.reference("shaft.speed");
+    assert_eq!(host.set(&[first + 1, speed, first], &[3e-6, 100.0, 2e-6]), Status::Ok, "{:?}", host.lines());
+    let after = list(&host, STATES, fmi2GetContinuousStates);
+    assert_eq!((after[0], after[1], &after[2..]), (2e-6, 3e-6, &before[2..]));
+    assert_eq!(host.get(&[speed]), Ok(vec![100.0]));
+    // All or none.
+    assert_eq!(host.set(&[first, speed], &[4e-6, f64::NAN]), Status::Discard);
+    assert_eq!(host.set(&[speed, first], &[90.0, f64::NAN]), Status::Discard);
+    assert_eq!(list(&host, STATES, fmi2GetContinuousStates), after);
+    assert_eq!(host.get(&[speed]), Ok(vec![100.0]));
+}
+
+#[test]
+fn a_time_past_the_stop_time_is_an_error() {
+    let resources = both::for_both_kinds("er16k-tb1");
+    let host = Host::of_parts(made(&resources), resources);
+    host.start_at(0.0, Some(0.02));
+    let state = host.save();
+    // SAFETY: any handle may be passed.
+    let set = |host: &Host, time: f64| unsafe { fmi2SetTime(host.c, time) };
+    // As a host's sum of steps rounds.
+    assert_eq!(set(&host, 0.02 * (1.0 + 1e-12)), Status::Ok);
+    host.refuses(state, &["past the stop time 0.02"], |host| set(host, 0.0200001));
+}
+
+#[test]
+fn indicators_are_finite_and_of_order_one_also_of_waves_that_have_no_ends() {
+    let waves = "\n[[waviness]]\non = \"element\"\nelement = 1\norder = 5\namplitude_um = 0.2\n";
+    let edited = |text: String| text + waves;
+    let resources = Resources::edited("6205-healthy", "resources", edited);
+    std::fs::write(resources.directory.join("interface"), "model-exchange").unwrap();
+    let host = Host::of_parts(made(&resources), resources.into());
+    host.start();
+    let count = host.simulation().event_indicator_count();
+    let indicators = list(&host, count, fmi2GetEventIndicators);
+    assert!(count > 2 * host.simulation().scene().bearing.element_count);
+    assert!(indicators.iter().all(|value| value.abs() < 1e3), "{indicators:?}");
+    assert!(indicators.iter().any(|value| *value > 0.5), "{indicators:?}");
 }

@@ -1,9 +1,9 @@
 //! Model exchange (FMI 3.0, section 3): counts, lists and variables say the same, and its Jacobian is of differences.
 
-use crate::three::{Call, Environment, Host};
+use crate::both;
+use crate::three::{Call, Environment, Host, Three};
 use crate::two::Resources;
 use brinell_fmi::fmi3::*;
-use std::fs;
 
 /// An instance for model exchange.
 fn made(resources: &Resources) -> (Instance, Box<Environment>) {
@@ -20,9 +20,8 @@ fn list(host: &Host, count: usize, get: unsafe extern "C" fn(Instance, *mut f64,
 
 #[test]
 fn states_derivatives_and_indicators_are_variables_and_the_jacobian_is_theirs() {
-    let resources = Resources::of("er16k-tb1");
-    fs::write(resources.directory.join("interface"), "model-exchange").unwrap();
-    let host = Host::of_parts(made(&resources), resources.into());
+    let resources = both::for_both_kinds("er16k-tb1");
+    let host = Host::of_parts(made(&resources), resources);
     host.start();
     let (mut flags, mut time) = ([TRUE; 5], 1.0);
     let [a, b, c, d, e] = &mut flags;
@@ -61,4 +60,11 @@ fn states_derivatives_and_indicators_are_variables_and_the_jacobian_is_theirs() 
 #[test]
 fn without_the_mark_of_its_kind_there_is_no_instance_for_model_exchange() {
     assert!(made(&Resources::of("er16k-tb1")).0.is_null());
+}
+
+#[test]
+fn an_instance_for_co_simulation_shows_what_an_fmu_for_both_kinds_lists_under_fmi_3() {
+    both::shows_the_variables_of_model_exchange_when_stepped::<Three>(|host, unknown, known| {
+        host.directional([&[unknown], &[known]], &[1.0], 1).map(|values| values[0])
+    });
 }

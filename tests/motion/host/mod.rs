@@ -3,4 +3,5 @@
 mod between_runs;
 mod by_name;
 mod coupling;
+mod dependencies;
 mod derivatives;

@@ -131,10 +131,7 @@ impl Addressing {
         match (row, self.kinds.get(reference as usize)) {
             (Some(row), Some(Kind::Array(_))) => of_all_elements(row).0,
             (Some(row), _) => row.name.clone(),
-            (None, _) if self.is_exchanged(reference) => {
-                let mut all = simulation.exchange_variables().into_iter();
-                all.find(|variable| variable.reference == reference).map(|variable| variable.name).unwrap_or_default()
-            }
+            (None, _) if self.is_exchanged(reference) => simulation.exchange_name(reference).unwrap_or_default(),
             (None, _) => "time".to_owned(),
         }
     }

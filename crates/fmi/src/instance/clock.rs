@@ -67,6 +67,9 @@ pub(crate) enum ClockError {
     /// Zero, negative, not a number or infinite.
     #[error("communication step size {0:?} s: it must be finite and above 0")]
     Step(f64),
+    /// Past the stop time, by somebody else's integrator.
+    #[error("time {time:?} s: it is past the stop time {stop:?} s")]
+    TimePastStop { time: f64, stop: f64 },
     /// Past the stop time.
     #[error("communication step from {point:?} s by {step:?} s: it ends past the stop time {stop:?} s")]
     PastStop { point: f64, step: f64, stop: f64 },
@@ -84,12 +87,17 @@ impl Clock {
         }
     }
 
-    /// Goes to a time that somebody else's integrator tries.
+    /// Goes to a time that somebody else's integrator tries: not past the stop time, where the host has given one.
     pub(crate) fn move_to(&mut self, time: f64) -> Result<(), ClockError> {
         if !time.is_finite() {
             return Err(ClockError::Time(time));
         }
-        self.time = time;
+        match self.stop {
+            Some(stop) if time > stop + ADDED * stop.abs().max(self.start.abs()) => {
+                return Err(ClockError::TimePastStop { time, stop });
+            }
+            _ => self.time = time,
+        }
         Ok(())
     }
 

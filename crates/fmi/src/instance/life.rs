@@ -31,7 +31,7 @@ pub(crate) struct Instance {
     /// Whether a panic has left the simulation in an unknown condition.
     pub(crate) damaged: bool,
     /// The bearing.
-    pub(crate) simulation: Simulation,
+    pub(crate) simulation: Box<Simulation>,
     /// The way to the host's logger.
     pub(crate) logger: Logger,
     /// What the resources describe.
@@ -40,6 +40,8 @@ pub(crate) struct Instance {
     pub(crate) snapshots: Snapshots,
     /// Whether it is for model exchange.
     pub(crate) exchange: bool,
+    /// Whether the FMU lists the variables of model exchange, of whichever kind the instance is.
+    pub(crate) lists_exchange: bool,
     /// What references stand for in FMI 3.0; `None` in FMI 2.0, where each is a row of the table.
     pub(crate) addressing: Option<Addressing>,
     /// What the host wants of intermediate updates; `None` if nothing.
@@ -73,6 +75,7 @@ impl Instance {
             model,
             snapshots: Snapshots::default(),
             exchange: false,
+            lists_exchange: false,
             addressing: None,
             updates: None,
             rows: Vec::new(),
@@ -317,10 +320,10 @@ pub(crate) fn finite(simulation: &Simulation, references: &[ValueReference], val
         return Ok(());
     }
     let index = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
-    let name = references
-        .get(index)
-        .and_then(|reference| simulation.table().get(*reference as usize))
-        .map(|variable| variable.name.clone())
-        .unwrap_or_default();
+    let name = references.get(index).and_then(|&reference| match simulation.table().get(reference as usize) {
+        Some(variable) => Some(variable.name.clone()),
+        None => simulation.exchange_name(reference),
+    });
+    let name = name.unwrap_or_default();
     Err(Failure::NotFinite { name, value: values.get(index).copied().unwrap_or(f64::NAN) })
 }

@@ -84,6 +84,11 @@ impl Modes {
     pub(crate) const fn contains(self, mode: Mode) -> bool {
         self.0 & mode as u8 != 0
     }
+
+    /// The set with this mode as well.
+    pub(crate) const fn and(self, mode: Mode) -> Self {
+        Self(self.0 | mode as u8)
+    }
 }
 
 /// An exported function and where it may be called: one row of the table of its version.

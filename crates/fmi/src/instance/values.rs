@@ -4,7 +4,8 @@ use super::failure::Failure;
 use super::life::Instance;
 use super::mode::{Function, Mode, Modes, Version};
 use crate::c_interface::ValueReference;
-use brinell::simulation::{Simulation, SimulationError};
+use brinell::simulation::exchange::ExchangeRole;
+use brinell::simulation::{Simulation, SimulationError, VariableError};
 
 /// Why not, in FMI 3.0.
 const ONLY_CO_SIMULATION: &str = "is for co-simulation: step it with fmi3DoStep; it has no event mode, as \
@@ -30,21 +31,14 @@ impl Instance {
         }
     }
 
-    /// Reads reals of the table and behind it.
+    /// Reads reals of the table, and behind it if the FMU lists them.
     #[inline]
     pub(crate) fn reals(&mut self, references: &[ValueReference], values: &mut [f64]) -> Result<(), Failure> {
-        let rows = self.simulation.table().len();
-        if !self.exchange || references.iter().all(|&reference| (reference as usize) < rows) {
-            return Ok(self.simulation.reals(references, values)?);
+        if self.lists_exchange {
+            let of_kind = if self.exchange { in_a_trial } else { Failure::from };
+            return self.simulation.exchange_reals(references, values).map_err(of_kind);
         }
-        for (value, &reference) in values.iter_mut().zip(references) {
-            if (reference as usize) < rows {
-                self.simulation.reals(&[reference], std::slice::from_mut(value))?;
-            } else {
-                *value = self::value(&mut self.simulation, reference)?;
-            }
-        }
-        Ok(())
+        Ok(self.simulation.reals(references, values)?)
     }
 
     /// Fills one of the lists.
@@ -101,34 +95,38 @@ impl Instance {
         Ok(())
     }
 
-    /// Products with the Jacobian, of variables of the table and behind it.
-    pub(crate) fn directional_derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        values: &mut [f64],
-    ) -> Result<(), Failure> {
-        let product =
-            if self.is_integrated() { Simulation::exchange_derivative } else { Simulation::directional_derivative };
-        Ok(product(&mut self.simulation, unknowns, knowns, seed, values)?)
+    /// Sets reals as FMI 2.0 has it: of continuous-time mode continuous states as well (3.2.3, note 5).
+    #[inline]
+    pub(crate) fn set_reals(&mut self, references: &[ValueReference], values: &[f64]) -> Result<(), Failure> {
+        let rows = self.simulation.table().len();
+        if self.mode != Mode::ContinuousTime || references.iter().all(|&reference| (reference as usize) < rows) {
+            return Ok(self.simulation.set_reals(references, values)?);
+        }
+        let mut states = vec![0.0; self.count_of(PerItem::States)];
+        self.simulation.continuous_states(&mut states)?;
+        let (mut of_table, mut reals) = (Vec::new(), Vec::new());
+        for (&reference, &value) in references.iter().zip(values) {
+            match self.simulation.exchange_role(reference) {
+                Some(ExchangeRole::State(number)) => states[number] = value,
+                _ => (of_table.push(reference), reals.push(value)).1,
+            }
+        }
+        // All or none: what is refused is so before anything is set.
+        if let Some(index) = states.iter().position(|value| !value.is_finite()) {
+            return Err(Failure::Trial(format!("state number {} is {}", index + 1, states[index])));
+        }
+        self.simulation.set_reals(&of_table, &reals)?;
+        self.simulation.set_continuous_states(&states);
+        Ok(())
     }
 
-    /// The same from the left.
-    pub(crate) fn adjoint_derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        values: &mut [f64],
-    ) -> Result<(), Failure> {
-        let product = if self.is_integrated() { Simulation::exchange_adjoint } else { Simulation::adjoint_derivative };
-        Ok(product(&mut self.simulation, unknowns, knowns, seed, values)?)
-    }
-
-    /// Whether the host integrates the states, so that they are among the knowns.
-    fn is_integrated(&self) -> bool {
-        self.exchange && self.mode != Mode::Initialization
+    /// Refuses references behind the table unless the FMU lists what they stand for.
+    pub(crate) fn check_listed(&self, references: &[ValueReference]) -> Result<(), Failure> {
+        let rows = self.simulation.table().len();
+        match references.iter().find(|&&reference| !self.lists_exchange && reference as usize >= rows) {
+            None => Ok(()),
+            Some(&reference) => Err(VariableError::UnknownReference(reference, rows as u32 - 1).into()),
+        }
     }
 }
 

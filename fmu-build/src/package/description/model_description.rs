@@ -200,20 +200,25 @@ fn structure(simulation: &Simulation, exchanged: &[ExchangeVariable], interface:
     };
     // The structure of FMI 2.0 counts variables from 1, the table from 0.
     let first = u32::from(version == Version::Fmi2);
+    let rows = simulation.table().len() as u32;
+    // Those behind the table leave one out, for the time of FMI 3.0.
+    let number = |reference: u32| if reference < rows { reference + first } else { reference };
     let unknown = |output: &Dependencies, known: &[u32], more: &[u32]| {
-        let mut references: Vec<String> = known.iter().map(|reference| (reference + first).to_string()).collect();
-        references.extend(more.iter().map(u32::to_string));
-        (output.output + first, Some(references.join(" ")), vec!["dependent"; references.len()].join(" "))
+        let references: Vec<String> = known.iter().chain(more).map(|&of| number(of).to_string()).collect();
+        (number(output.output), Some(references.join(" ")), vec!["dependent"; references.len()].join(" "))
     };
+    let of_exchange = if interface.exchanges() { simulation.exchange_dependencies() } else { Vec::new() };
     // Whatever an output shows may follow from any state.
     let states = exchange::references(exchanged, |role| matches!(role, ExchangeRole::State(_)));
     let direct: Vec<_> = outputs.iter().map(|output| unknown(output, &output.direct, &states)).collect();
     let mut initial: Vec<_> = outputs.iter().map(|output| unknown(output, &output.initial, &[])).collect();
-    initial.extend(exchange::unknowns(exchanged, |role| !matches!(role, ExchangeRole::Indicator(_))));
+    initial.extend(of_exchange.iter().map(|of| unknown(of, &of.initial, &[])));
     let mut lists = vec![context! { name => "Output", unknowns => direct }];
     if interface.exchanges() {
         let name = if version == Version::Fmi2 { "Derivative" } else { "ContinuousStateDerivative" };
-        let unknowns = exchange::unknowns(exchanged, |role| matches!(role, ExchangeRole::Derivative(_)));
+        let derivatives = exchange::references(exchanged, |role| matches!(role, ExchangeRole::Derivative(_)));
+        let unknowns = of_exchange.iter().filter(|of| derivatives.contains(&of.output));
+        let unknowns: Vec<_> = unknowns.map(|of| unknown(of, &of.direct, &[])).collect();
         lists.push(context! { name, unknowns });
     }
     lists.push(context! { name => "InitialUnknown", unknowns => initial });

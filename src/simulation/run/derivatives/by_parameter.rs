@@ -67,7 +67,7 @@ impl Simulation {
             return Err(SimulationError::NoDerivativeBySize(self.variable(known)?.name.clone()));
         }
         let (mut start, mut here) = (self.clone(), vec![0.0; unknowns.len()]);
-        start.reals(unknowns, &mut here)?;
+        start.exchange_reals(unknowns, &mut here)?;
         let at = self.run.state.reals[known as usize];
         let step = difference(parameter, at, nominal, start.share_of_approaches());
         let mut there = here.clone();
@@ -79,7 +79,7 @@ impl Simulation {
             start.run.state.reals[known as usize] = at + steps * step;
             start.invalidate(UpToDate::Nothing);
             // A start beside one that exists: where there is none, the limit of what exists has no derivative.
-            start.reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;
+            start.exchange_reals(unknowns, &mut there).map_err(|_| SimulationError::NoDerivative)?;
             for ((value, there), here) in values.iter_mut().zip(&there).zip(&here) {
                 *value += weight * share / step * (there - here);
             }

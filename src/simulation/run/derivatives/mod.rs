@@ -23,9 +23,7 @@ use crate::dynamics::derivatives::Going;
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, RingInSpace};
 use crate::dynamics::quasi_static::in_plane;
 use crate::numerics::plane::Vector;
-use crate::simulation::interface::{
-    Change, Input, Quantity, RingName, as_many, dependencies, out_of_range, value_access,
-};
+use crate::simulation::interface::{Change, Input, Quantity, RingName, as_many, dependencies, value_access};
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
 /// Fills values of unknowns from knowns and a seed of theirs, in this order.
@@ -71,7 +69,8 @@ impl Simulation {
     }
 
     /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs or before `initialize` real
-    /// parameters, to first order.
+    /// parameters, to first order. The continuous states of [`crate::simulation::exchange`] and their derivatives are
+    /// unknowns as well; the states are knowns once the run has started.
     /// ```
     /// use brinell::scene::{Bearing, Scene};
     /// use brinell::simulation::Simulation;
@@ -100,7 +99,7 @@ impl Simulation {
         as_many(knowns.len(), seed.len())?;
         as_many(unknowns.len(), values.len())?;
         for &reference in unknowns {
-            self.interface.unknown(reference)?;
+            self.check_unknown(reference)?;
         }
         let acceleration = self.along_knowns(knowns, seed)?;
         if !self.run.state.started {
@@ -118,10 +117,13 @@ impl Simulation {
         }
         self.finish_change(unknowns, acceleration, self.present.excitation);
         for (value, &reference) in values.iter_mut().zip(unknowns) {
-            *value = self.changed(self.interface.quantities[reference as usize]);
+            *value = match self.interface.quantities.get(reference as usize) {
+                Some(&quantity) => self.changed(quantity),
+                None => self.exchanged_change(reference),
+            };
         }
         for (&known, &weight) in knowns.iter().zip(seed) {
-            if let Quantity::Parameter(parameter) = self.interface.quantities[known as usize]
+            if let Some(&Quantity::Parameter(parameter)) = self.interface.quantities.get(known as usize)
                 && dependencies::balances(parameter)
             {
                 self.along_parameter(unknowns, (known, parameter), weight, values)?;
@@ -146,9 +148,9 @@ impl Simulation {
         as_many(unknowns.len(), seed.len())?;
         as_many(knowns.len(), values.len())?;
         for (&reference, &weight) in unknowns.iter().zip(seed) {
-            let variable = self.interface.unknown(reference)?;
+            self.check_unknown(reference)?;
             if !weight.is_finite() {
-                return Err(out_of_range(variable, weight, f64::MIN, f64::MAX).into());
+                return Err(self.no_weight(reference, weight).into());
             }
         }
         self.left_product(Self::directional_derivative, [unknowns, knowns], seed, values)
@@ -179,13 +181,9 @@ impl Simulation {
         seed: &[f64],
     ) -> Result<Vector, SimulationError> {
         for (&reference, &value) in knowns.iter().zip(seed) {
-            let variable = self.variable(reference)?;
-            let class = self.interface.classes(&[reference]).unwrap_or(0);
-            if class != value_access::INPUT && (self.run.state.started || class != value_access::PARAMETER) {
-                return Err(VariableError::NotAKnown { name: variable.name.clone() }.into());
-            }
+            self.check_known(reference)?;
             if !value.is_finite() {
-                return Err(out_of_range(variable, value, f64::MIN, f64::MAX).into());
+                return Err(self.no_weight(reference, value).into());
             }
         }
         self.refresh()?;
@@ -194,11 +192,40 @@ impl Simulation {
         Ok(self.present.outputs(&self.run).acceleration(RingName::Housing))
     }
 
+    /// Refuses what is no real output, nor a continuous state or the derivative of one.
+    fn check_unknown(&self, reference: u32) -> Result<(), VariableError> {
+        match self.interface.table.get(reference as usize) {
+            Some(_) => self.interface.unknown(reference).map(|_| ()),
+            None => self.check_exchanged_unknown(reference),
+        }
+    }
+
+    /// Refuses what is no real input: before the start no parameter either, after it no continuous state.
+    fn check_known(&self, reference: u32) -> Result<(), VariableError> {
+        let Some(variable) = self.interface.table.get(reference as usize) else {
+            return self.check_exchanged_known(reference);
+        };
+        let class = self.interface.classes(&[reference]).unwrap_or(0);
+        if class != value_access::INPUT && (self.run.state.started || class != value_access::PARAMETER) {
+            return Err(VariableError::NotAKnown { name: variable.name.clone() });
+        }
+        Ok(())
+    }
+
+    fn no_weight(&self, reference: u32, value: f64) -> VariableError {
+        let name = self.interface.table.get(reference as usize).map(|variable| variable.name.clone());
+        let name = name.or_else(|| self.exchange_name(reference)).unwrap_or_default();
+        VariableError::OutOfRange { name, value, min: f64::MIN, max: f64::MAX }
+    }
+
     fn along_inputs(&mut self, knowns: &[u32], seed: &[f64]) {
-        let change = &mut self.change;
-        change.clear();
+        self.change.clear();
         for (&reference, &value) in knowns.iter().zip(seed) {
-            let Some(input) = self.interface.quantities[reference as usize].as_input() else { continue };
+            let Some(quantity) = self.interface.quantities.get(reference as usize) else {
+                self.along_exchanged(reference, value);
+                continue;
+            };
+            let (Some(input), change) = (quantity.as_input(), &mut self.change) else { continue };
             match input {
                 Input::Speed(ring) => {
                     let (ratios, i) = (&self.run.model.ratios, ring.index());
@@ -287,8 +314,8 @@ impl Simulation {
         let by_acceleration = change.forces.torque_by_acceleration;
         let [x, y, ..] = change.accelerations[1];
         change.cage_torque = change.forces.cage_torque + by_acceleration.dot(&Vector::new(x, y));
-        let wanted =
-            |&reference: &u32| matches!(self.interface.quantities[reference as usize], Quantity::Stiffness(..));
+        let quantities = &self.interface.quantities;
+        let wanted = |&of: &u32| matches!(quantities.get(of as usize), Some(Quantity::Stiffness(..)));
         if unknowns.iter().any(wanted) {
             // Balances follow inputs at once, states do not.
             let mut settled = Vec::new();

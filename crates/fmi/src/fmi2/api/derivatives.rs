@@ -31,7 +31,9 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     // SAFETY: this function's contract.
     unsafe {
         product(c, function, [unknowns, knowns], seed, values, |instance, [unknowns, knowns], seed, values| {
-            instance.directional_derivative(unknowns, knowns, seed, values)?;
+            instance.check_listed(unknowns)?;
+            instance.check_listed(knowns)?;
+            instance.simulation.directional_derivative(unknowns, knowns, seed, values)?;
             finite(&instance.simulation, unknowns, values)
         })
     }

@@ -2,6 +2,8 @@
 
 #![allow(non_snake_case)]
 
+use std::ffi::CStr;
+use std::path::PathBuf;
 use std::ptr;
 
 use super::functions;
@@ -57,10 +59,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
                 return Err(Refusal::Type(fmuType));
             }
             let guid = guid.ok_or(Refusal::NoToken("GUID"))?;
-            let location = location.ok_or(Refusal::NoResources(
-                "resource location is NULL: pass the URI of the unpacked directory \"resources\"",
-            ))?;
-            let resources = uri::path(location.to_bytes())?;
+            let resources = resources(location)?;
             if fmuType == MODEL_EXCHANGE && !instantiation::is_marked(&resources, instantiation::MODEL_EXCHANGE) {
                 return Err(Refusal::Type(fmuType));
             }
@@ -68,9 +67,17 @@ pub unsafe extern "C" fn fmi2Instantiate(
         },
         |instance| {
             instance.exchange = fmuType == MODEL_EXCHANGE;
+            instance.lists_exchange = instantiation::is_marked(&resources(location)?, instantiation::MODEL_EXCHANGE);
             Ok(())
         },
     )
+}
+
+fn resources(location: Option<&CStr>) -> Result<PathBuf, Refusal> {
+    let location = location.ok_or(Refusal::NoResources(
+        "resource location is NULL: pass the URI of the unpacked directory \"resources\"",
+    ))?;
+    Ok(uri::path(location.to_bytes())?)
 }
 
 /// `fmi2SetupExperiment`: start, stop and tolerance.

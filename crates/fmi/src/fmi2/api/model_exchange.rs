@@ -7,7 +7,7 @@ use super::functions::ALWAYS;
 use super::types::{Boolean, Component, EventInfo, FALSE, Real, Status};
 use crate::arguments::{array, array_mut, store};
 use crate::both_versions::exchange::{AT_ANY_TIME, Done, Instance};
-use crate::instance::Mode::{ContinuousTime, Event};
+use crate::instance::Mode::{ContinuousTime, Event, Instantiated};
 use crate::instance::{PerItem, modes};
 
 crate::both_versions::exchange::functions! {
@@ -75,7 +75,7 @@ crate::both_versions::exchange::functions! {
         instance.fill(PerItem::States, unsafe { array_mut("x", values, nx)? })
     };
     /// `fmi2GetNominalsOfContinuousStates`.
-    fmi2GetNominalsOfContinuousStates(x_nominal: *mut Real, nx: usize) AT_ANY_TIME,
+    fmi2GetNominalsOfContinuousStates(x_nominal: *mut Real, nx: usize) AT_ANY_TIME.and(Instantiated),
         |instance: Instance, _, values, nx| -> Done {
         // SAFETY: this function's contract; null and misaligned arrays are refused.
         instance.fill(PerItem::Nominals, unsafe { array_mut("x_nominal", values, nx)? })

@@ -63,7 +63,7 @@ functions! {
     };
     /// `fmi2SetReal`.
     set fmi2SetReal(*const Real) SET_REAL |instance, references, values| {
-        Ok(instance.simulation.set_reals(references, values)?)
+        instance.set_reals(references, values)
     };
     /// `fmi2SetInteger`: enumerations and the seed of an uneven cage.
     set fmi2SetInteger(*const Integer) SET_INTEGER |instance, references, values| {

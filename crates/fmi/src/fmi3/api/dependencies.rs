@@ -1,7 +1,8 @@
 //! The exported functions that tell what a variable depends on, element by element.
 //!
-//! Only outputs depend on anything: before the end of initialization on inputs and parameters, at communication points
-//! on inputs. What they depend on are scalars, whose element index is 0: all of the variable.
+//! Outputs depend before the end of initialization on inputs and parameters, at communication points on inputs. So do
+//! the variables of model exchange, whose derivatives then depend on states as well. What they depend on are scalars,
+//! whose element index is 0: all of the variable.
 
 #![allow(non_snake_case)]
 
@@ -23,7 +24,10 @@ fn dependencies(instance: &instance::Instance, reference: ValueReference) -> Res
     let addressing = addressing(instance)?;
     let rows = addressing.rows(&reference)?;
     let initial = matches!(instance.mode, Mode::Instantiated | Mode::Initialization);
-    let all = instance.simulation.dependencies();
+    let is_exchanged = addressing.is_exchanged(reference);
+    let rows = if is_exchanged { std::slice::from_ref(&reference) } else { rows };
+    let all =
+        if is_exchanged { instance.simulation.exchange_dependencies() } else { instance.simulation.dependencies() };
     let of_row = |row: &u32| {
         let element = addressing.address_of(*row).element;
         let found = all.iter().find(|of| of.output == *row);

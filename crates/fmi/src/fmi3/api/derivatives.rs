@@ -10,9 +10,10 @@ use crate::arguments::{array, array_mut, disjoint};
 use crate::both_versions::variables::{Array, product};
 use crate::instance::{Failure, ValueCount, finite};
 use crate::{boundary, instance};
+use brinell::simulation::{Simulation, SimulationError};
 
 /// What the model computes of rows of unknowns and knowns and a seed.
-type Computed = fn(&mut instance::Instance, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), Failure>;
+type Computed = fn(&mut Simulation, &[u32], &[u32], &[f64], &mut [f64]) -> Result<(), SimulationError>;
 
 /// Computes a product of variables' elements. `adjoint` says which of unknowns and knowns the seed belongs to.
 fn of_elements(
@@ -30,11 +31,11 @@ fn of_elements(
         expand(instance, knowns, of_knowns, rows)?;
         let (unknowns, knowns) = rows.split_at(count);
         let (compute, of): (Computed, _) = if adjoint {
-            (instance::Instance::adjoint_derivative, knowns)
+            (Simulation::adjoint_derivative, knowns)
         } else {
-            (instance::Instance::directional_derivative, unknowns)
+            (Simulation::directional_derivative, unknowns)
         };
-        compute(instance, unknowns, knowns, seed, sensitivity)?;
+        compute(&mut instance.simulation, unknowns, knowns, seed, sensitivity)?;
         finite(&instance.simulation, of, sensitivity)
     })
 }

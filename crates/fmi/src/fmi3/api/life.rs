@@ -59,8 +59,9 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
             // SAFETY: this function's contract.
             let required = unsafe { references(requiredIntermediateVariables, nRequiredIntermediateVariables)? };
             let early_return = earlyReturnAllowed != FALSE;
-            let scalars = is_marked(path, instantiation::SCALARS);
-            arrange(instance, required, intermediateUpdate, instanceEnvironment, (early_return, scalars))
+            instance.addressing = Some(addressing(instance, path));
+            instance.updates = updates(instance, required, intermediateUpdate, instanceEnvironment, early_return)?;
+            Ok(())
         },
     )
 }
@@ -92,36 +93,41 @@ unsafe fn references<'a>(pointer: *const ValueReference, count: usize) -> Result
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
 }
 
-/// Adds to a new instance what FMI 3.0 needs.
-fn arrange(
-    instance: &mut instance::Instance,
+/// What references stand for in the FMU at a path, of whichever kind the instance is.
+fn addressing(instance: &instance::Instance, path: Option<&CStr>) -> Addressing {
+    let [exchange, scalars] = [instantiation::MODEL_EXCHANGE, instantiation::SCALARS].map(|word| is_marked(path, word));
+    Addressing::of(&instance.simulation, Listing { exchange, scalars })
+}
+
+/// What the host wants of intermediate updates.
+fn updates(
+    instance: &instance::Instance,
     required: &[ValueReference],
     callback: Option<IntermediateUpdateCallback>,
     environment: InstanceEnvironment,
-    (early_return, scalars): (bool, bool),
-) -> Result<(), Refusal> {
-    let addressing = Addressing::of(&instance.simulation, Listing { exchange: false, scalars });
-    let is_possible = |reference: &&u32| addressing.is_intermediate(&instance.simulation, **reference);
+    early_return: bool,
+) -> Result<Option<IntermediateUpdates>, Refusal> {
+    let (simulation, addressing) = (&instance.simulation, instance.addressing.as_ref());
+    let is_possible =
+        |reference: &&u32| addressing.is_some_and(|addressing| addressing.is_intermediate(simulation, **reference));
     if let Some(&impossible) = required.iter().find(|reference| !is_possible(reference)) {
         return Err(Refusal::NotIntermediate(impossible));
     }
     let mut sorted = required.to_vec();
     sorted.sort_unstable();
-    instance.updates = match callback {
-        Some(callback) => Some(IntermediateUpdates {
+    match callback {
+        Some(callback) => Ok(Some(IntermediateUpdates {
             callback,
             environment,
             early_return,
-            with_inputs: sorted.iter().any(|&reference| Addressing::is_input(&instance.simulation, reference)),
+            with_inputs: sorted.iter().any(|&reference| Addressing::is_input(simulation, reference)),
             required: sorted,
             may_set: false,
             failed: false,
-        }),
-        None if required.is_empty() => None,
-        None => return Err(Refusal::NoCallback),
-    };
-    instance.addressing = Some(addressing);
-    Ok(())
+        })),
+        None if required.is_empty() => Ok(None),
+        None => Err(Refusal::NoCallback),
+    }
 }
 
 /// `fmi3InstantiateModelExchange`: a new instance, or NULL after a line to the logger, also where the FMU is for
@@ -153,8 +159,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
         },
         |instance| {
             instance.exchange = true;
-            let scalars = is_marked(path, instantiation::SCALARS);
-            instance.addressing = Some(Addressing::of(&instance.simulation, Listing { exchange: true, scalars }));
+            instance.addressing = Some(addressing(instance, path));
             Ok(())
         },
     )
