@@ -309,7 +309,7 @@ pub(crate) fn shows_the_variables_of_model_exchange_when_stepped<V: Version>(
         let mut own = host.simulation().clone();
         let exchanged = own.exchange_variables();
         let references: Vec<u32> = exchanged.iter().map(|variable| variable.reference).collect();
-        let mut agrees = |own: &mut Simulation, when: &str| {
+        let agrees = |own: &mut Simulation, when: &str| {
             let shown = host.get(&references).unwrap_or_else(|status| panic!("{when}: {status:?}: {:?}", host.lines()));
             let expected = references.iter().map(|&reference| own.exchange_value(reference).unwrap().unwrap());
             let expected = expected.collect::<Vec<_>>();

@@ -132,7 +132,8 @@ fn twenty_milliseconds_of_a_spalled_bearing_integrated_by_somebody_else_are_the_
 #[test]
 fn integrated_by_somebody_else_balls_in_space_move_as_by_themselves() {
     for (name, seen) in [
-        ("7205-preloaded", &["shaft.x", "shaft.y", "shaft.z", "shaft.tilt.x", "element[1].axial"][..]),
+        ("7205-preloaded", &["shaft.x", "shaft.y", "shaft.z", "element[1].axial"][..]),
+        ("7205-inner", &["shaft.y", "shaft.z", "shaft.tilt.x", "element[1].axial"][..]),
         ("6205-combined", &["shaft.y", "shaft.z", "housing.y", "element[1].path"][..]),
     ] {
         let scene = Scene { tolerance: 1e-11, ..shipped(name) };

@@ -67,7 +67,7 @@ impl Simulation {
     /// and which it is.
     fn each_cell(&mut self, mut see: impl FnMut(f64, u32, crate::simulation::integration::landing::Contact)) {
         let excitation = self.excitation(false);
-        let (forces, Run { model, state, .. }) = (&mut self.present.evaluation.forces, &self.run);
+        let (forces, Run { model, state, .. }) = (&mut self.present.evaluation.forces, &*self.run);
         let progress = &state.progress;
         let now = model.kinematics(&excitation, 0.0, &progress.state);
         let paths = forces.contacts.paths(model, &progress.state);

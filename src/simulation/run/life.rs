@@ -23,9 +23,10 @@ use std::sync::Arc;
 pub struct Simulation {
     pub(in crate::simulation) setup: Setup,
     pub(in crate::simulation) interface: Interface,
-    pub(in crate::simulation) run: Run,
-    pub(in crate::simulation) present: Present,
-    pub(in crate::simulation) change: Change,
+    /// This and the next are on the heap: a bearing is handed on and copied where a host's thread has little stack.
+    pub(in crate::simulation) run: Box<Run>,
+    pub(in crate::simulation) present: Box<Present>,
+    pub(in crate::simulation) change: Box<Change>,
     pub(super) up_to_date: UpToDate,
     pub(super) ahead: Ahead,
     pub(super) wiring: Wiring,
@@ -83,11 +84,11 @@ impl Simulation {
         let setup = Setup::new(scene, profiles, map)?;
         let interface = Interface::of(&setup.scene, &setup.surfaces);
         let (model, is_complete) = setup.first_model()?;
-        let run = Run::new(model, &setup.scene, &interface);
+        let run = Box::new(Run::new(model, &setup.scene, &interface));
         let in_space = run.model.space.is_some();
         Ok(Self {
-            present: Present::new(&run.model),
-            change: Change::new(run.model.element_count, run.model.sensor_modes.state_len(), in_space),
+            present: Box::new(Present::new(&run.model)),
+            change: Box::new(Change::new(run.model.element_count, run.model.sensor_modes.state_len(), in_space)),
             ahead: Ahead::default(),
             wiring: Wiring::default(),
             up_to_date: if is_complete { UpToDate::Model } else { UpToDate::Nothing },

@@ -166,7 +166,7 @@ fn a_time_past_the_stop_time_is_an_error() {
 
 #[test]
 fn indicators_are_finite_and_of_order_one_also_of_waves_that_have_no_ends() {
-    let waves = "\n[[waviness]]\non = \"element\"\nelement = 1\norder = 5\namplitude_um = 0.2\n";
+    let waves = "\n[[waviness]]\non = \"element\"\nelement = 1\norder = 5\namplitude_um = 0.2\nangle_deg = 0.0\n";
     let edited = |text: String| text + waves;
     let resources = Resources::edited("6205-healthy", "resources", edited);
     std::fs::write(resources.directory.join("interface"), "model-exchange").unwrap();

@@ -104,7 +104,7 @@ impl Simulation {
         let acceleration = self.along_knowns(knowns, seed)?;
         if !self.run.state.started {
             let progress = &self.run.state.progress;
-            let Present { excitation, evaluation, .. } = &mut self.present;
+            let Present { excitation, evaluation, .. } = &mut *self.present;
             let found = self.run.model.vary_equilibrium(
                 excitation,
                 &progress.cells,
@@ -286,7 +286,7 @@ impl Simulation {
         let forces_now = &mut self.present.evaluation.forces;
         let progress = &self.run.state.progress;
         let (cells, state) = (&progress.cells, &progress.state);
-        let change = &mut self.change;
+        let change = &mut *self.change;
         let Change { variation, forces, .. } = &mut *change;
         self.run.model.vary(&excitation, cells, state, acceleration, (variation, forces), &mut forces_now.shortcuts);
 
@@ -352,7 +352,7 @@ impl Simulation {
 
     /// What the change makes of one output.
     pub(in crate::simulation) fn changed(&self, quantity: Quantity) -> f64 {
-        let Change { variation, forces, .. } = &self.change;
+        let Change { variation, forces, .. } = &*self.change;
         match quantity {
             Quantity::Position(name, axis) => variation.rings[name.index()].position[axis],
             Quantity::Velocity(name, axis) => variation.rings[name.index()].velocity[axis],
