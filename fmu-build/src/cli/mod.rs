@@ -6,12 +6,11 @@ mod shipped_options;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
-use brinell::scene::DegreesOfFreedom;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
 use crate::package::{Library, Model, Reference, fmu};
-use crate::shared::{Interface, Kind, Project, Version, talk};
+use crate::shared::{Interface, Project, Version, talk};
 use crate::{paper, run, sweep};
 use options::{Build, Check, Demo, Run};
 use shipped_options::{Catalogue, New, Paper, Scenes};
@@ -145,13 +144,6 @@ fn build(project: &Project, options: Build) -> Result<()> {
     let interface = Interface { version, kind: options.kind, names: options.names, scalars };
     let read = |path: &PathBuf| {
         let mut model = Model::read(path)?;
-        let freedom = model.scene.bearing.degrees_of_freedom;
-        ensure!(
-            interface.kind == Kind::Cs || freedom == DegreesOfFreedom::Two,
-            "{}: bearing.degrees_of_freedom is {}; for --kind me and both it must be 2",
-            path.display(),
-            freedom.count()
-        );
         if options.reference {
             let reference = Reference::of(&model.scene, model.simulation.clone());
             model.reference = Some(reference.with_context(|| path.display().to_string())?);

@@ -25,7 +25,7 @@ fn cvode_of_fmpy_integrates_what_the_fmu_integrates_itself() {
 
 #[test]
 fn fmpy_finds_nothing_wrong_with_other_kinds_names_and_scalars() {
-    let scenes = ["6205-healthy", "6205-hosted", "er16k-inner", "6205-two-defects"];
+    let scenes = ["6205-healthy", "6205-hosted", "er16k-inner", "6205-two-defects", "7205-inner"];
     let mut fmus = Vec::new();
     for version in [Version::Fmi2, Version::Fmi3] {
         for kind in [Kind::Cs, Kind::Me, Kind::Both] {
