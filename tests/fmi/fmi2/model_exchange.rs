@@ -152,16 +152,22 @@ fn nominals_may_be_read_before_initialization_and_states_set_one_by_one() {
 }
 
 #[test]
-fn a_time_past_the_stop_time_is_an_error() {
+fn an_integrator_may_try_times_past_the_stop_time_and_take_no_step_there() {
     let resources = both::for_both_kinds("er16k-tb1");
     let host = Host::of_parts(made(&resources), resources);
     host.start_at(0.0, Some(0.02));
-    let state = host.save();
     // SAFETY: any handle may be passed.
-    let set = |host: &Host, time: f64| unsafe { fmi2SetTime(host.c, time) };
+    assert_eq!(unsafe { fmi2EnterContinuousTimeMode(host.c) }, Status::Ok);
+    let state = host.save();
+    let (mut event, mut end) = (TRUE, TRUE);
+    // SAFETY: as above; pointers to one value each.
+    let mut take = |host: &Host, time: f64| unsafe {
+        assert_eq!(fmi2SetTime(host.c, time), Status::Ok);
+        fmi2CompletedIntegratorStep(host.c, TRUE, &raw mut event, &raw mut end)
+    };
     // As a host's sum of steps rounds.
-    assert_eq!(set(&host, 0.02 * (1.0 + 1e-12)), Status::Ok);
-    host.refuses(state, &["past the stop time 0.02"], |host| set(host, 0.0200001));
+    assert_eq!(take(&host, 0.02 * (1.0 + 1e-12)), Status::Ok);
+    host.refuses(state, &["past the stop time 0.02"], |host| take(host, 0.0200001));
 }
 
 #[test]

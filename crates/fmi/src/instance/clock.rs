@@ -68,7 +68,7 @@ pub(crate) enum ClockError {
     #[error("communication step size {0:?} s: it must be finite and above 0")]
     Step(f64),
     /// Past the stop time, by somebody else's integrator.
-    #[error("time {time:?} s: it is past the stop time {stop:?} s")]
+    #[error("integrator step to {time:?} s: it ends past the stop time {stop:?} s")]
     TimePastStop { time: f64, stop: f64 },
     /// Past the stop time.
     #[error("communication step from {point:?} s by {step:?} s: it ends past the stop time {stop:?} s")]
@@ -87,18 +87,25 @@ impl Clock {
         }
     }
 
-    /// Goes to a time that somebody else's integrator tries: not past the stop time, where the host has given one.
+    /// Goes to a time that somebody else's integrator tries, which may be past the stop time: CVode steps over it, and
+    /// interpolates.
     pub(crate) fn move_to(&mut self, time: f64) -> Result<(), ClockError> {
         if !time.is_finite() {
             return Err(ClockError::Time(time));
         }
-        match self.stop {
-            Some(stop) if time > stop + ADDED * stop.abs().max(self.start.abs()) => {
-                return Err(ClockError::TimePastStop { time, stop });
-            }
-            _ => self.time = time,
-        }
+        self.time = time;
         Ok(())
+    }
+
+    /// Refuses a step of somebody else's integrator that is taken for good and ends past the stop time.
+    pub(crate) fn check_taken(&self) -> Result<(), ClockError> {
+        let Self { time, start, .. } = *self;
+        match self.stop {
+            Some(stop) if time > stop + ADDED * stop.abs().max(start.abs()) => {
+                Err(ClockError::TimePastStop { time, stop })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The clock at the end of a step that the host asks for.

@@ -89,6 +89,12 @@ impl Instance {
         Ok(())
     }
 
+    /// Takes the states as they are, at this time.
+    pub(crate) fn accept_states(&mut self) -> Result<(), Failure> {
+        self.clock.ok_or(Failure::NotSetUp)?.check_taken()?;
+        Ok(self.simulation.accept_states()?)
+    }
+
     /// Handles an event, after which nothing is left to be iterated.
     pub(crate) fn handle_event(&mut self) -> Result<(), Failure> {
         self.simulation.handle_event()?;

@@ -47,7 +47,7 @@ crate::both_versions::exchange::functions! {
             store("enterEventMode", event, FALSE)?;
             store("terminateSimulation", end, FALSE)?;
         }
-        Ok(instance.simulation.accept_states()?)
+        instance.accept_states()
     };
     /// `fmi2SetTime`.
     fmi2SetTime(time: Real) modes([Event, ContinuousTime]), |instance: Instance, _, time| -> Done {

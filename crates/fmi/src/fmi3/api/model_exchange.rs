@@ -59,7 +59,7 @@ crate::both_versions::exchange::functions! {
             store("enterEventMode", event, FALSE)?;
             store("terminateSimulation", end, FALSE)?;
         }
-        Ok(instance.simulation.accept_states()?)
+        instance.accept_states()
     };
     /// `fmi3SetTime`.
     fmi3SetTime(time: f64) modes([ContinuousTime]), |instance: Instance, _, time| -> Done { instance.set_time(time) };
