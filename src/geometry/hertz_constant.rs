@@ -58,9 +58,26 @@ pub fn rolling_radii(bearing: &Bearing) -> [f64; 2] {
     [middle - bearing.element_radius(), middle + bearing.element_radius()]
 }
 
-/// E* of two bodies of the bearing's material (Pa): 1/E* = 2(1−ν²)/E.
+/// E* of an element and a ring (Pa): 1/E* = (1−ν₁²)/E₁ + (1−ν₂²)/E₂.
 pub fn effective_modulus(bearing: &Bearing) -> f64 {
-    bearing.youngs_modulus / (2.0 * (1.0 - bearing.poissons_ratio * bearing.poissons_ratio))
+    plane_moduli(bearing)[0] * share_of_ring(bearing)
+}
+
+/// Share of the ring in what both bodies yield, E*(1−ν²)/E: exactly a half of equal materials, less where elements are
+/// softer.
+pub fn share_of_ring(bearing: &Bearing) -> f64 {
+    let [ring, element] = plane_moduli(bearing);
+    1.0 / (1.0 + ring / element)
+}
+
+/// E/(1−ν²) of ring and element (Pa).
+fn plane_moduli(bearing: &Bearing) -> [f64; 2] {
+    let of = |modulus: f64, ratio: f64| modulus / (1.0 - ratio * ratio);
+    let (modulus, ratio) = (bearing.youngs_modulus, bearing.poissons_ratio);
+    [
+        of(modulus, ratio),
+        of(bearing.element_youngs_modulus.unwrap_or(modulus), bearing.element_poissons_ratio.unwrap_or(ratio)),
+    ]
 }
 
 /// K of Q = K δ^1.5 for two positive relative principal curvatures (1/m) and E* (Pa).

@@ -6,12 +6,14 @@
 //! ```
 //! with δ the contact's own approach and P(x) the crown's depth at the lamina's middle (ISO/TS 16281, equations 38 to
 //! 46). The standard's K_L is that of both contacts of a roller in series; an element with mass between them needs each
-//! for itself. K_L comes from Palmgren's measurements on steel and is not scaled to other materials. Neither raceway
-//! nor clearance enters: a half-space gives contacts inside and outside 3 % apart and 6 % off this law between 50 and
+//! for itself. K_L comes from Palmgren's measurements on steel on steel; with elements of another material it grows as E*
+//! does, since his approach is 0.39 (4(1−ν₁²)/E₁ + 4(1−ν₂²)/E₂)^0.9 Q^0.9/L^0.8 (mm, N). Neither raceway nor clearance
+//! enters: a half-space gives contacts inside and outside 3 % apart and 6 % off this law between 50 and
 //! 1500 N on a roller of 7.5 × 9 mm. Rings do not tilt, so that all laminae see the same δ.
 
+use super::hertz_constant::share_of_ring;
 use crate::numerics::ninth_root;
-use crate::scene::{Roller, RollerProfile};
+use crate::scene::{Bearing, Roller, RollerProfile};
 
 /// K_L over L^(8/9) (N/m²): 35948 in N and mm.
 const BOTH_CONTACTS: f64 = 35948e6;
@@ -21,7 +23,13 @@ const LONG: f64 = 2.5;
 /// Order of a line contact's force in its approach.
 pub const LINE_ORDER: f64 = 10.0 / 9.0;
 
-/// K_1 (N/m^(10/9)) of one contact of a straight roller of this effective length (m).
+/// K_1 (N/m^(10/9)) of one contact of a bearing's straight roller of this effective length (m).
+pub fn line_constant_of(bearing: &Bearing, length: f64) -> f64 {
+    // Of equal materials exactly 1.
+    2.0 * share_of_ring(bearing) * line_constant(length)
+}
+
+/// K_1 (N/m^(10/9)) of one contact of a straight roller of steel on steel, of this effective length (m).
 pub fn line_constant(length: f64) -> f64 {
     let two = ninth_root(2.0);
     let ninth = ninth_root(length);

@@ -17,6 +17,7 @@ pub mod film_thickness;
 pub mod hertz_constant;
 pub mod kinematics;
 pub mod line_contact;
+pub mod load_rating;
 
 /// Force on the most loaded element over an even share F/Z of the bearing's load, for usual clearances (Stribeck, *Ball
 /// bearings for various loads*, Trans. ASME 29, 1907): balls without any have 4.37.

@@ -92,6 +92,8 @@ impl Bearing {
             gyroscopic: Gyroscopic::None,
             youngs_modulus: 207e9,
             poissons_ratio: 0.3,
+            element_youngs_modulus: None,
+            element_poissons_ratio: None,
             density: 7800.0,
             element_mass: None,
             hertz_inner: None,

@@ -17,7 +17,7 @@ use crate::numerics::checksum::checksum;
 
 const MARK: &[u8; 8] = b"BRNL-MDL";
 /// Changes with every field of a [`Scene`] and of what it consists of.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// A model file that does not give a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

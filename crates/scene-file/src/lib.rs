@@ -13,7 +13,10 @@ mod spelling;
 mod tables;
 mod units;
 
-pub use catalogue::{CatalogueBearing, Inside, NotInCatalogue, catalogue, catalogued};
+pub use catalogue::{
+    CatalogueBearing, ClearanceClass, ClearanceRange, Designation, Inside, NotInCatalogue, catalogue, catalogued,
+    designation, name_remark,
+};
 pub use diagnosis::{Hint, KeyFault, SceneFileError, toml_fault};
 pub use rivals::replaces;
 pub use schema::{description, schema};

@@ -7,6 +7,7 @@ use brinell::scene::quantity::*;
 static OF_FILES: &[&Quantity] = &[
     // Twice as much as the radial clearance, which is what is checked.
     &quantity("internal clearance", "bearing.internal_clearance_um", 1e6, Inclusive(-2e9), Inclusive(2e9)),
+    &quantity("density of the elements", "bearing.element_density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5)),
     // What conformities leave with elements of any diameter that is possible.
     &quantity("groove diameter", "bearing.groove_diameter_mm", 1e3, Inclusive(0.01), Inclusive(4e6)),
     // As it is written in degrees, of any body.

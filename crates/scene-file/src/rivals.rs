@@ -37,17 +37,46 @@ const RIVALS: [Rivals; 7] = [
     Rivals { keys: &["sensor.direction_deg", "sensor.direction"], parts: &[] },
 ];
 
+/// Keys that belong to one bearing: a name of another one takes them away. Material and what a roller's crown is like
+/// stay.
+const OF_ONE_BEARING: [&str; 22] = [
+    "bearing.element",
+    "bearing.element_count",
+    "bearing.element_diameter_mm",
+    "bearing.element_diameter_offsets_um",
+    "bearing.pitch_diameter_mm",
+    "bearing.roller_length_mm",
+    "bearing.groove_diameter_mm",
+    "bearing.conformity_inner",
+    "bearing.conformity_outer",
+    "bearing.radial_clearance_um",
+    "bearing.internal_clearance_um",
+    "bearing.axial_clearance_um",
+    "bearing.contact_angle_deg",
+    "bearing.operating_angle_deg",
+    "bearing.shoulder_inner_mm",
+    "bearing.shoulder_outer_mm",
+    "bearing.hertz_inner_n_m1_5",
+    "bearing.hertz_outer_n_m1_5",
+    "bearing.element_mass_g",
+    "bearing.element_youngs_modulus_gpa",
+    "bearing.element_poissons_ratio",
+    "bearing.element_density_kg_m3",
+];
+
 /// Whether who gives a key, with its table (`defect.length_mm`), takes another one away (`defect.length_deg`).
 pub fn replaces(key: &str, other: &str) -> bool {
     let takes = |Rivals { keys, parts }: &Rivals| {
         keys.contains(&key) && (keys.contains(&other) || (keys[0] == key && parts.contains(&other)))
     };
-    key != other && RIVALS.iter().any(takes)
+    let by_name = key == "bearing.catalogue" && OF_ONE_BEARING.contains(&other);
+    by_name || (key != other && RIVALS.iter().any(takes))
 }
 
 /// Whether no scene has both of two keys.
 pub(crate) fn exclude_each_other(one: &str, other: &str) -> bool {
-    replaces(one, other) || replaces(other, one)
+    let named = [one, other].contains(&"bearing.catalogue");
+    !named && (replaces(one, other) || replaces(other, one))
 }
 
 #[cfg(test)]

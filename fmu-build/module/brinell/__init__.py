@@ -198,16 +198,22 @@ def new(
     *,
     bearing: str = "6205",
     defect: str | None = None,
+    load: float | None = None,
     axial: float | None = None,
+    degrees_of_freedom: int | None = None,
     hosted: bool = False,
 ) -> Path:
     """Writes a commented scene of a bearing of the catalogue that runs as it is, and gives its path.
 
-    Without ``name`` it is called after bearing and defect. ``defect`` is a spall as ``"inner:1.2mm"``; ``axial`` a load
-    [N] along the axis, with which rings have three degrees of freedom; with ``hosted`` an FMU's host moves the shaft.
+    ``bearing`` is its name as its maker writes it (``"SKF 6205-2Z/C3"``). Without ``name`` the scene is called after
+    bearing and defect. ``defect`` is a spall as ``"inner:1.2mm"``; ``load`` [N] acts downwards and ``axial`` [N] along
+    the axis, with which rings have three ``degrees_of_freedom``, or five; with ``hosted`` an FMU's host moves the shaft.
     """
     words = [name] if name is not None else []
-    words += _options(bearing=bearing, defect=defect, axial=axial, hosted=hosted, output=output)
+    words += _options(
+        bearing=bearing, defect=defect, load=load, axial=axial, degrees_of_freedom=degrees_of_freedom, hosted=hosted,
+        output=output,
+    )
     said = _ask("new", *words)
     return Path(said.splitlines()[0])
 

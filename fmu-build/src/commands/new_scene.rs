@@ -4,8 +4,10 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
-use brinell::scene::Scene;
-use brinell_scene_file::{CatalogueBearing, NotInCatalogue, catalogued};
+use brinell::geometry::load_rating::load_ratings;
+use brinell::scene::{Bearing, Scene, TiltSupport};
+use brinell::simulation::setup::largest_force;
+use brinell_scene_file::{Designation, designation};
 use minijinja::context;
 
 use super::schema;
@@ -42,28 +44,37 @@ impl FromStr for Spall {
 #[derive(Debug, Default, Clone, Copy)]
 pub(crate) struct Asked<'a> {
     pub(crate) spall: Option<&'a Spall>,
+    /// Load across the axis (N).
+    pub(crate) load: Option<f64>,
     /// Load along the axis (N).
     pub(crate) axial: Option<f64>,
+    /// In how many directions rings move.
+    pub(crate) freedom: Option<u8>,
     /// Whether a host moves the shaft.
     pub(crate) hosted: bool,
 }
 
-/// The bearing of this name.
-fn named(name: &str) -> Result<CatalogueBearing> {
-    Ok(catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() })?)
+/// The scene of a bearing that is nowhere written down; what its name says is noted.
+pub(crate) fn unwritten(bearing: &str, asked: Asked) -> Result<String> {
+    let read = named(bearing)?;
+    text(&unnamed(&read, asked), bearing, &read, asked)
 }
 
-/// The scene of a bearing that is nowhere written down.
-pub(crate) fn unwritten(bearing: &str, asked: Asked) -> Result<String> {
-    let bearing = named(bearing)?;
-    text(&unnamed(&bearing, asked), &bearing, asked)
+/// The bearing of this name. What the name says beside the bearing's own is noted.
+pub(crate) fn named(name: &str) -> Result<Designation> {
+    let read = designation(name)?;
+    if let Some(said) = read.remark() {
+        note!("note: {}: {said}", name.trim());
+    }
+    Ok(read)
 }
 
 /// Name of a scene that is given none.
-fn unnamed(bearing: &CatalogueBearing, asked: Asked) -> String {
+fn unnamed(read: &Designation, asked: Asked) -> String {
     // A name has no points: 1.2 mm are 1_2mm.
     let of_spall = |Spall { on, length, unit }: &Spall| format!("{on}-{length}{unit}").replace('.', "_");
-    format!("{}-{}", bearing.designation.to_lowercase(), asked.spall.map_or("healthy".to_owned(), of_spall))
+    let designation = read.bearing.designation.to_lowercase();
+    format!("{designation}-{}", asked.spall.map_or("healthy".to_owned(), of_spall))
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
@@ -83,10 +94,10 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
 
 /// The command: writes `<folder>/<name>.toml`.
 pub(crate) fn command(name: Option<&str>, bearing: &str, asked: Asked, folder: &Path) -> Result<()> {
-    let bearing = named(bearing)?;
-    let unnamed = unnamed(&bearing, asked);
+    let read = named(bearing)?;
+    let unnamed = unnamed(&read, asked);
     let name = name.unwrap_or(&unnamed);
-    let text = text(name, &bearing, asked)?;
+    let text = text(name, bearing, &read, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
     whole_file::write_own(&folder.join(format!("{name}.toml")), &text)?;
@@ -98,48 +109,115 @@ pub(crate) fn sweep(name: &str, folder: &Path) -> Result<()> {
     whole_file::write_own(&folder.join(format!("{name}.toml")), include_str!("../../../examples/sweep.toml"))
 }
 
-fn text(name: &str, bearing: &CatalogueBearing, asked: Asked) -> Result<String> {
-    let Asked { spall, axial, hosted } = asked;
-    if let (Some(axial), true) = (axial, hosted) {
-        bail!("--axial {axial} N with --hosted: what the shaft carries is the host's");
+/// The bearing that a scene gets by a name alone.
+pub(crate) fn bearing_of(called: &str, read: &Designation) -> Result<Bearing> {
+    let freedom = if read.bearing.inside.contact_angle.is_some() { 3 } else { 2 };
+    let keys = format!("catalogue = {}\ndegrees_of_freedom = {freedom}", quoted(called));
+    let rings = "[shaft]\nmotion = \"host\"\nspeed_hz = 0\n[housing]\nmotion = \"fixed\"\n";
+    Ok(brinell_scene_file::from_toml(&format!("name = \"bearing\"\n[bearing]\n{keys}\n{rings}"))?.bearing)
+}
+
+/// A name as a value of TOML, without blanks that nobody sees.
+fn quoted(called: &str) -> String {
+    toml::Value::String(called.split_whitespace().collect::<Vec<_>>().join(" ")).to_string()
+}
+
+/// What the rings carry (N), and what is said of it.
+struct Loads {
+    across: f64,
+    across_source: String,
+    axial: Option<f64>,
+    axial_source: &'static str,
+    freedom: u8,
+}
+
+impl Loads {
+    fn of(bearing: &Bearing, read: &Designation, asked: Asked) -> Result<Self> {
+        let Asked { load, axial, freedom, .. } = asked;
+        if let Some(load) = load.filter(|load| !(load.is_finite() && *load > 0.0)) {
+            bail!("--load {load} N: it must be finite and above 0");
+        }
+        if let Some(axial) = axial.filter(|axial| !axial.is_finite() || *axial == 0.0) {
+            bail!("--axial {axial} N: it must be finite and other than 0");
+        }
+        let rating = load_ratings(bearing).fixed;
+        let share = (LOAD_SHARE * rating / 10.0).round().max(1.0) * 10.0;
+        let (across, across_source) = match load {
+            Some(load) => (load, "as asked for".to_owned()),
+            None => (share, format!("assumed: 5 % of the static rating, {:.1} kN by ISO 76", 1e-3 * rating)),
+        };
+        // A contact that leans lifts a ring that nothing pushes along the axis.
+        let leans = read.bearing.inside.contact_angle.is_some();
+        let (axial, axial_source) = match axial {
+            Some(axial) => (Some(axial), "as asked for"),
+            None if leans => (Some(across), "as much along the axis, assumed"),
+            None => (None, ""),
+        };
+        let freedom = freedom.unwrap_or(if axial.is_some() { 3 } else { 2 });
+        if let (2, Some(axial)) = (freedom, axial) {
+            bail!("--degrees-of-freedom 2 with {axial} N along the axis: it must be 3 or 5");
+        }
+        Ok(Self { across, across_source, axial, axial_source, freedom })
     }
-    let (designation, inside) = (bearing.designation, bearing.inside);
-    if let Some(axial) = axial.filter(|axial| !axial.is_finite() || *axial == 0.0) {
-        bail!("--axial {axial} N: it must be finite and other than 0");
+
+    /// Force (N) that contacts are prepared for under these loads.
+    fn largest_force(&self, bearing: &Bearing) -> Result<f64> {
+        let mut scene = Scene::builder(bearing.clone()).build()?;
+        scene.shaft.load = [0.0, -self.across];
+        scene.shaft.axial.load = self.axial.unwrap_or(0.0);
+        Ok(largest_force(&scene))
     }
+}
+
+fn text(name: &str, called: &str, read: &Designation, asked: Asked) -> Result<String> {
+    let Asked { spall, hosted, .. } = asked;
+    let (designation, inside) = (read.bearing.designation, read.bearing.inside);
+    let bearing = bearing_of(called, read)?;
+    let loads = Loads::of(&bearing, read, asked)?;
     let source = inside.source.unwrap_or("assumed: estimated from bore and outside diameter; put in what you know");
-    let formula = if inside.roller_length.is_none() { "12.3 Z D²" } else { "44 (1 - D/Dpw) Z L D" };
-    let load = (LOAD_SHARE * inside.static_rating() / 10.0).round().max(1.0) * 10.0;
     // One shoulder of an angular contact bearing is high, and the other cut away.
     let share = if inside.contact_angle.is_some() { 0.3 } else { 0.2 };
-    // A contact that leans lifts a ring that nothing pushes along the axis.
-    let (axial, axial_source) = match (axial, inside.contact_angle) {
-        (Some(axial), _) => (Some(axial), "as asked for"),
-        (None, Some(_)) => (Some(load), "as much along the axis"),
-        (None, None) => (None, ""),
-    };
     let what =
         spall.map_or("healthy".to_owned(), |Spall { on, length, unit }| format!("spall of {length} {unit}, {on}"));
     let defect = |&Spall { on, length, unit }: &Spall| context! { on, unit, length => format!("{length:?}") };
+    let across = loads.across;
     let values = context! {
         name,
         designation,
         what,
         source,
-        formula,
-        load => load.to_string(),
-        catalogue => format!("{:<25}", format!("\"{designation}\"")),
+        load => across.to_string(),
+        load_source => &loads.across_source,
+        largest_force => format!("{:<19?}", loads.largest_force(&bearing)?),
+        mapped => spall.is_some() || hosted,
+        catalogue => format!("{:<25}", quoted(called)),
         count => format!("{:<19}", inside.element_count),
         diameter => format!("{:.3}", inside.element_diameter),
         pitch => format!("{:.3}", inside.pitch_diameter),
         length => inside.roller_length.map(|length| format!("{length:<16}")),
-        load_vector => format!("{:<28}", match axial {
-            None => format!("[0.0, -{load:.1}]"),
-            Some(axial) => format!("[0.0, -{load:.1}, {axial:?}]"),
+        clearance => read.clearance.map(|clearance| format!("{:<13?}", clearance.middle_um())),
+        class => read.clearance.map(|clearance| clearance.to_string()),
+        conformity => bearing.conformity_inner,
+        modulus => bearing.youngs_modulus / 1e9,
+        ratio => bearing.poissons_ratio,
+        density => bearing.density,
+        ceramic => bearing.element_youngs_modulus.zip(bearing.element_poissons_ratio).map(|(modulus, ratio)| {
+            context! { modulus => modulus / 1e9, ratio }
+        }),
+        load_vector => format!("{:<28}", match loads.axial {
+            None => format!("[0.0, -{across:?}]"),
+            Some(axial) => format!("[0.0, -{across:?}, {axial:?}]"),
         }),
         hosted,
-        axial => axial.map(|axial| axial.to_string()),
-        axial_source,
+        tilt => context! {
+            transverse_inertia => TiltSupport::ASSUMED.transverse_inertia,
+            polar_inertia => TiltSupport::ASSUMED.polar_inertia,
+            damping => TiltSupport::ASSUMED.damping,
+            stiffness => TiltSupport::ASSUMED.stiffness,
+        },
+        axial => loads.axial.map(|axial| axial.to_string()),
+        axial_source => loads.axial_source,
+        freedom => loads.freedom,
         angle => inside.contact_angle.map(|angle| format!("{angle:<15?}")),
         shoulder => format!("{:<15.2}", share * inside.element_diameter),
         share,
@@ -153,6 +231,10 @@ mod tests {
     use super::*;
     use brinell_scene_file::catalogue;
 
+    fn text(name: &str, bearing: &str, asked: Asked) -> Result<String> {
+        super::text(name, bearing, &designation(bearing).unwrap(), asked)
+    }
+
     #[test]
     fn every_bearing_with_every_kind_of_defect_gives_a_scene() {
         for bearing in catalogue() {
@@ -161,7 +243,7 @@ mod tests {
                 for hosted in [false, true] {
                     let hosted = Asked { hosted, ..Asked::default() };
                     let scene = brinell_scene_file::from_toml(
-                        &text("mine", &bearing, Asked { spall: spall.as_ref(), ..hosted }).unwrap(),
+                        &text("mine", bearing.designation, Asked { spall: spall.as_ref(), ..hosted }).unwrap(),
                     )
                     .unwrap();
                     assert_eq!(scene.bearing.element_count, bearing.inside.element_count);
@@ -174,7 +256,7 @@ mod tests {
 
     #[test]
     fn the_width_of_lines_that_a_scene_promises_is_that_of_its_spectra() {
-        let own = text("mine", &catalogued("6205").unwrap(), Asked::default()).unwrap();
+        let own = text("mine", "6205", Asked::default()).unwrap();
         let stop = brinell_scene_file::from_toml(&own).unwrap().experiment.stop;
         // As `line_width_hz` beside a spectrum of the envelope: four lines of a Fourier transform under Hann's window.
         let promised = format!("4 / {stop} s = {:.1} Hz wide", 4.0 / stop);
@@ -184,9 +266,9 @@ mod tests {
     #[test]
     fn an_axial_load_asks_for_three_degrees_of_freedom() {
         for (name, axial, expected) in
-            [("7205B", Some(500.0), 500.0), ("6205", Some(-300.0), -300.0), ("7205C", None, 500.0)]
+            [("7205B", Some(500.0), 500.0), ("6205", Some(-300.0), -300.0), ("7205C", None, 550.0)]
         {
-            let text = text("mine", &catalogued(name).unwrap(), Asked { axial, ..Asked::default() }).unwrap();
+            let text = text("mine", name, Asked { axial, ..Asked::default() }).unwrap();
             let scene = brinell_scene_file::from_toml(&text).unwrap();
             assert_eq!((scene.bearing.degrees_of_freedom.count(), scene.shaft.axial.load), (3, expected), "{text}");
             assert_eq!(scene.bearing.contact_angle.is_some(), name != "6205");
@@ -195,25 +277,80 @@ mod tests {
 
     #[test]
     fn each_motion_that_a_scene_offers_is_taken_as_its_comment_says() {
-        let own = text("mine", &catalogued("6205").unwrap(), Asked::default()).unwrap();
-        let offers = |line: &&str| line.starts_with("motion = ");
+        let own = text("mine", "6205", Asked::default()).unwrap();
         let mut tried = Vec::new();
-        for line in own.lines().filter(offers) {
+        for line in own.lines().filter(|line| line.starts_with("motion = ")) {
             for word in line.split('#').nth(1).unwrap().split('"').skip(1).step_by(2) {
                 let mut changed = own.replace(line, &format!("motion = \"{word}\""));
-                if line.contains(&format!("\"{word}\", then without load_n")) {
-                    let load = own.lines().find(|line| line.starts_with("load_n")).unwrap();
-                    changed = changed.replace(load, "");
+                if line.contains("then without the keys") {
+                    let below = own.split_once(line).unwrap().1.split("\n\n").next().unwrap();
+                    let kept = below.lines().filter(|key| key.starts_with("speed_hz")).collect::<Vec<_>>().join("\n");
+                    changed = changed.replace(below, &format!("\n{kept}"));
                 }
-                if line.contains(&format!("\"{word}\", then without [sensor]")) {
+                if line.contains(&format!("\"{word}\", without [sensor]")) {
                     let (before, after) = changed.split_once("[sensor]").unwrap();
                     changed = format!("{before}[experiment]{}", after.split_once("[experiment]").unwrap().1);
                 }
-                assert!(brinell_scene_file::from_toml(&changed).is_ok(), "{word}: {line}");
+                assert!(brinell_scene_file::from_toml(&changed).is_ok(), "{word}: {line}\n{changed}");
                 tried.push(word);
             }
         }
         assert_eq!(tried, ["host", "host", "fixed"]);
+    }
+
+    #[test]
+    fn a_scene_says_its_clearance_class_its_material_and_all_that_is_assumed_as_it_holds_without_it() {
+        for (name, clearance, class) in [
+            ("6205", "12.5", "CN, 5 to 20 um"),
+            ("SKF 6205-2Z/C3", "20.5", "C3, 13 to 28 um"),
+            ("608", "7.5", "CN, 2 to 13 um"),
+            ("NU 312 ECP", "55.0", "CN, 40 to 70 um"),
+            ("NU 210 ECM/HC5C3", "65.0", "C3, 50 to 80 um"),
+        ] {
+            let spall = "outer:5deg".parse().unwrap();
+            let own = text("mine", name, Asked { spall: Some(&spall), ..Asked::default() }).unwrap();
+            let line = own.lines().find(|line| line.starts_with("internal_clearance_um")).unwrap();
+            assert!(line.contains(&format!("= {clearance} ")) && line.contains(class), "{name}: {line}");
+            let scene = brinell_scene_file::from_toml(&own).unwrap();
+            assert_eq!(scene.bearing.element_youngs_modulus.is_some(), name.contains("HC"), "{own}");
+            // What is written down is what holds without it.
+            let assumed = ["mass_kg", "damping_", "stiffness_n_m", "largest_force_n", "slip", "initial_", "tolerance"];
+            let mut table = "";
+            let without = own.lines().filter(|line| {
+                table = if line.starts_with('[') { line.split(']').next().unwrap() } else { table };
+                table == "[sensor" || !assumed.iter().any(|key| line.starts_with(key))
+            });
+            let without = brinell_scene_file::from_toml(&without.collect::<Vec<_>>().join("\n")).unwrap();
+            let force = largest_force(&without);
+            assert_eq!(scene.contact.largest_force, Some(force), "{name}");
+            let mut expected = without.clone();
+            expected.contact.largest_force = Some(force);
+            assert_eq!(scene, expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_hosted_scene_takes_the_loads_of_its_rotor_for_what_contacts_reach() {
+        let spall = "outer:5deg".parse().unwrap();
+        let asked = Asked { hosted: true, load: Some(450.0), axial: Some(500.0), freedom: Some(5), ..Asked::default() };
+        for spall in [None, Some(&spall)] {
+            let own = text("mine", "6205", Asked { spall, ..asked }).unwrap();
+            let scene = brinell_scene_file::from_toml(&own).unwrap();
+            assert_eq!(scene.bearing.degrees_of_freedom.count(), 5);
+            // 4 · (5 · 450/9 + 500/(9 sin α°)), α° = 11.4 degrees, to the next preferred number.
+            assert_eq!(scene.contact.largest_force, Some(2500.0), "{own}");
+        }
+        let light = text("mine", "6205", Asked { load: Some(1.0), ..asked }).unwrap();
+        let heavy = text("mine", "6205", Asked { load: Some(9e3), ..asked }).unwrap();
+        let force = |own: &str| brinell_scene_file::from_toml(own).unwrap().contact.largest_force.unwrap();
+        assert!(force(&light) < force(&heavy));
+        for wrong in [
+            Asked { load: Some(0.0), ..asked },
+            Asked { axial: Some(f64::NAN), ..asked },
+            Asked { freedom: Some(2), ..asked },
+        ] {
+            assert!(text("mine", "6205", wrong).is_err(), "{wrong:?}");
+        }
     }
 
     #[test]

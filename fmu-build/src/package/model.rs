@@ -55,7 +55,10 @@ pub fn read_scene(path: &Path) -> Result<(String, Scene)> {
 /// What is possible and unusual in a scene of this text.
 pub fn remarks(text: &str, scene: &Scene) -> impl Iterator<Item = String> {
     let of_units = brinell_scene_file::unit_questions(text).into_iter().map(|remark| remark.to_string());
-    of_units.chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
+    let of_name = brinell_scene_file::name_remark(text).into_iter();
+    of_units
+        .chain(of_name)
+        .chain(scene.remarks().into_iter().chain(film::remark(scene)).map(|remark| remark.to_string()))
 }
 
 /// By how much the contact angle under which balls run moves their passages, which a catalogue does not say; the scene

@@ -1,7 +1,7 @@
 //! The columns of a run's table: which variables, in which order.
 
 use anyhow::{Result, bail};
-use brinell::simulation::interface::table::{Causality, Kind, Variable};
+use brinell::simulation::interface::table::{Kind, Variability, Variable};
 use brinell::simulation::{Simulation, SimulationError};
 use brinell_scene_file::nearest;
 
@@ -79,7 +79,8 @@ impl Columns {
     fn those(table: &[Variable], wanted: &dyn Fn(&str) -> bool) -> Self {
         let mut columns = Self { names: Vec::new(), reals: Vec::new(), integers: Vec::new(), counts: Vec::new() };
         let mut counters = Vec::new();
-        let shown = |variable: &&Variable| variable.causality != Causality::Parameter && wanted(&variable.name);
+        // What is fixed is no course over time.
+        let shown = |variable: &&Variable| variable.variability != Variability::Fixed && wanted(&variable.name);
         for variable in table.iter().filter(shown) {
             match variable.kind {
                 Kind::Real { unit, .. } => {

@@ -5,7 +5,7 @@ use super::elasticity::Elasticity;
 use super::force_law::ForceLaw;
 use crate::contact::rolling::RacewaySide;
 use crate::geometry::hertz_constant::HertzConstants;
-use crate::geometry::line_contact::{lamina_depths, line_constant};
+use crate::geometry::line_contact::{lamina_depths, line_constant_of};
 use crate::scene::{Bearing, Damping};
 
 /// Laws of the contacts with the smooth raceways, the inner one first, with this damping.
@@ -21,7 +21,7 @@ pub fn smooth_laws(bearing: &Bearing, damping: Damping) -> [ForceLaw; 2] {
     let depths = lamina_depths(roller, bearing.element_diameter);
     let straight = depths.iter().all(|&depth| depth == 0.0);
     let elasticity = if straight { Elasticity::Line } else { Elasticity::Crowned(Crown::shared(&depths)) };
-    let law = ForceLaw { stiffness: line_constant(roller.length), elasticity, damping };
+    let law = ForceLaw { stiffness: line_constant_of(bearing, roller.length), elasticity, damping };
     [law.clone(), law]
 }
 

@@ -14,7 +14,7 @@
 //! As h grows this becomes the end's image, and it vanishes with h. The two numbers were fitted to plane-strain finite
 //! elements of a cylinder over the edge of a step, up to a half-width inside it: forces agree to 3 %
 //! (`tests/contact/edge.rs`), which is the accuracy that is claimed. ½ψ I is added to the influence: half of a
-//! contact's compliance is the spalled body's.
+//! contact's compliance is the spalled body's, of another material than the other body its own share.
 //!
 //! The influence matrix stays symmetric and positive definite, so that the contact still has an energy: I is symmetric,
 //! and its Laplace transform by s, 2(1 − cos(H√(t² − k²)))/√(t² − k²) for the wave number k along the edge and t > |k|,
@@ -32,7 +32,7 @@ const FELT: f64 = 5.0;
 /// Softness of the edges of one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeSoftness {
-    /// ½ψ.
+    /// ½ψ; with two materials the spalled body's share in place of the half.
     pub factor: f64,
     /// Depth of a step that counts as an end, in half-axes of the largest contact along the raceway: deeper ones count
     /// as this deep.
@@ -44,7 +44,12 @@ impl EdgeSoftness {
     /// raceway: as deep as that, a step leaves a ball on its edge 9 to 14 % more force than an end, and 16 to 23 % more
     /// two half-axes inside.
     pub fn of_steps(poissons_ratio: f64) -> Self {
-        Self { factor: 0.5 * image_factor(poissons_ratio), deepest: 4.0 }
+        Self::of_steps_in(poissons_ratio, 0.5)
+    }
+
+    /// The same of a body that yields this share of both.
+    pub fn of_steps_in(poissons_ratio: f64, share: f64) -> Self {
+        Self { factor: share * image_factor(poissons_ratio), deepest: 4.0 }
     }
 
     /// Distance (m) from a step of this depth (m) within which it is felt by contacts of up to this half-axis (m) along

@@ -48,10 +48,14 @@ pub struct Bearing {
     pub shoulder_outer: Option<f64>,
     /// Who holds the balls' gyroscopic couple.
     pub gyroscopic: Gyroscopic,
-    /// Young's modulus of rings and elements (Pa).
+    /// Young's modulus of the rings (Pa), and of the elements where they have none of their own.
     pub youngs_modulus: f64,
-    /// Poisson's ratio of rings and elements.
+    /// Poisson's ratio of the rings, and of the elements where they have none of their own.
     pub poissons_ratio: f64,
+    /// Young's modulus of elements of another material (Pa).
+    pub element_youngs_modulus: Option<f64>,
+    /// Poisson's ratio of elements of another material.
+    pub element_poissons_ratio: Option<f64>,
     /// Density of the elements (kg/m³).
     pub density: f64,
     /// Mass of one element (kg), when it overrides the solid element's.

@@ -245,6 +245,8 @@ impl Bearing {
         }
         faults.passes(YOUNGS_MODULUS.check(self.youngs_modulus));
         faults.passes(POISSONS_RATIO.check(self.poissons_ratio));
+        faults.passes(ELEMENT_YOUNGS_MODULUS.check_all(self.element_youngs_modulus.as_slice()));
+        faults.passes(ELEMENT_POISSONS_RATIO.check_all(self.element_poissons_ratio.as_slice()));
         faults.passes(ELEMENT_MASS.check_all(self.element_mass.as_slice()));
         faults.passes(HERTZ_INNER.check_all(self.hertz_inner.as_slice()));
         faults.passes(HERTZ_OUTER.check_all(self.hertz_outer.as_slice()));

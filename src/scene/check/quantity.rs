@@ -128,6 +128,10 @@ of_keys! {
         "bearing.shoulder_outer_mm", 1e3, Exclusive(0.0), Inclusive(2e3);
     YOUNGS_MODULUS: "Young's modulus", "bearing.youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4);
     POISSONS_RATIO: "Poisson's ratio", "bearing.poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5);
+    ELEMENT_YOUNGS_MODULUS: "Young's modulus of the elements",
+        "bearing.element_youngs_modulus_gpa", 1e-9, Inclusive(1e-3), Inclusive(1e4);
+    ELEMENT_POISSONS_RATIO: "Poisson's ratio of the elements",
+        "bearing.element_poissons_ratio", 1.0, Exclusive(-1.0), Exclusive(0.5);
     DENSITY: "density of the elements", "bearing.density_kg_m3", 1.0, Exclusive(0.0), Inclusive(1e5);
     ELEMENT_MASS: "mass of one element", "bearing.element_mass_g", 1e3, Inclusive(1e-9), Inclusive(1e9);
     HERTZ_INNER: "Hertz constant of the inner contact",

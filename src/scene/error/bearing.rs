@@ -36,10 +36,10 @@ pub enum BearingError {
          {high_mm} mm, 0.3 and 3 times bearing.element_diameter_mm, for cylindrical rollers; needle rollers bend"
     )]
     RollerLength { length_mm: f64, low_mm: f64, high_mm: f64 },
-    /// Rollers of another material than steel.
+    /// Raceways of rollers of another material than steel.
     #[error(
         "{quantity} ({key}) is {value}: with cylindrical rollers it must be {limits}, as of steel, on which their \
-         contact law was measured"
+         contact law was measured; rollers of another material have bearing.element_youngs_modulus_gpa"
     )]
     NotSteel { quantity: &'static str, key: &'static str, value: f64, limits: Limits },
     /// A measured crown near a defect, under a law that solves grids.

@@ -93,7 +93,7 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         | Q::ElementAngle(_)
         | Q::RingAngle(_)
         | Q::ElementSpinAngle(_) => false,
-        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::SuggestedStep | Q::Parameter(_) => false,
+        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::RadialClearance | Q::SuggestedStep | Q::Parameter(_) => false,
     }
 }
 
@@ -127,6 +127,7 @@ pub(in crate::simulation) fn starts_from(output: Q, known: Q, scene: &Scene) -> 
         | Q::Speed(_)
         | Q::Load(..)
         | Q::Count(_)
+        | Q::RadialClearance
         | Q::SuggestedStep
         | Q::Parameter(_) => match (known, known.as_input()) {
             (Q::Parameter(parameter), _) => balances(parameter),
@@ -158,7 +159,7 @@ pub(in crate::simulation) fn balances(parameter: Parameter) -> bool {
         Parameter::RepeatedInputs | Parameter::SensorResonance(_) => false,
         Parameter::RingMass(_) | Parameter::RingDamping(_) | Parameter::AxialDamping(_) => false,
         Parameter::TransverseInertia | Parameter::PolarInertia | Parameter::TiltDamping => false,
-        Parameter::RadialClearance
+        Parameter::InternalClearance
         | Parameter::ContactAngle
         | Parameter::OperatingAngle
         | Parameter::AcrossDamping

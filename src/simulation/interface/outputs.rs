@@ -129,7 +129,7 @@ impl Outputs<'_> {
             Quantity::ElementInnerForce(j) => self.forces.contacts.inner[j],
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Stiffness(..) => return None,
-            Quantity::SuggestedStep => return None,
+            Quantity::SuggestedStep | Quantity::RadialClearance => return None,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::Count(_) | Quantity::Parameter(_) => return None,
         })
     }

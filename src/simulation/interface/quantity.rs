@@ -72,6 +72,8 @@ pub enum Quantity {
     ElementOuterForce(usize),
     ElementSpinAngle(usize),
     Count(Count),
+    /// Half of the internal clearance that the host sets.
+    RadialClearance,
     SuggestedStep,
     Parameter(Parameter),
 }
@@ -102,7 +104,7 @@ pub enum Count {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Parameter {
-    RadialClearance,
+    InternalClearance,
     ContactAngle,
     OperatingAngle,
     ContactDamping,
@@ -165,6 +167,7 @@ impl Quantity {
             | Self::ElementOuterForce(_)
             | Self::ElementSpinAngle(_)
             | Self::Count(_)
+            | Self::RadialClearance
             | Self::Parameter(_) => None,
         }
     }

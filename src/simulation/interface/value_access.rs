@@ -28,8 +28,10 @@ pub(in crate::simulation) const AHEAD: u8 = 16;
 pub(in crate::simulation) const FORCE: u8 = 32;
 /// What makes a coupling one of second order: a force over a step, or how the force changes.
 pub(in crate::simulation) const SECOND: u8 = 64;
+/// Half of a parameter.
+pub(in crate::simulation) const HALF: u8 = 128;
 /// Any real variable.
-const REAL: u8 = INPUT | PARAMETER | OUTPUT;
+const REAL: u8 = INPUT | PARAMETER | OUTPUT | HALF;
 
 impl Access {
     /// Whether the variable is of one of these classes.
@@ -52,6 +54,7 @@ impl Access {
                 Quantity::NextMeanForce(..) => OUTPUT | AHEAD | SECOND,
                 Quantity::MeanForce(..) => OUTPUT | SECOND,
                 Quantity::Force(..) => OUTPUT | FORCE,
+                Quantity::RadialClearance => HALF,
                 _ => OUTPUT,
             },
         };

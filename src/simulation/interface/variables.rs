@@ -1,7 +1,7 @@
 //! The variables of one scene by their references: what they stand for, and what may be asked of them. Nothing of a
 //! run.
 
-use super::quantity::{Count, Quantity};
+use super::quantity::{Count, Parameter, Quantity};
 use super::value_access::{self, Access};
 use super::{Inputs, dependencies, table};
 use crate::scene::{DegreesOfFreedom, Scene};
@@ -79,6 +79,16 @@ impl Interface {
     #[inline]
     pub(in crate::simulation) fn is_output(&self, index: usize) -> bool {
         self.access[index].is(value_access::OUTPUT)
+    }
+
+    /// Value of a real variable of a known index that is no output, by those that are set.
+    #[inline]
+    pub(in crate::simulation) fn set_value(&self, index: usize, reals: &[f64]) -> f64 {
+        if !self.access[index].is(value_access::HALF) {
+            return reals[index];
+        }
+        let clearance = Quantity::Parameter(Parameter::InternalClearance);
+        self.quantities.iter().position(|quantity| *quantity == clearance).map_or(0.0, |of| 0.5 * reals[of])
     }
 
     /// All classes of the references, if reals may be set to these values: inputs, and before the run has `started`

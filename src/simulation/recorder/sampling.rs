@@ -318,6 +318,7 @@ fn as_recorded(output: Quantity) -> Recorded {
         | Quantity::ElementSpinAngle(_)
         | Quantity::ShoulderMargin(..)
         | Quantity::Count(_)
+        | Quantity::RadialClearance
         | Quantity::Parameter(_) => Recorded::Left,
     }
 }

@@ -97,7 +97,7 @@ impl Simulation {
             *value = if interface.is_output(i) {
                 self.output(&outputs, interface.quantities[i])
             } else {
-                self.run.state.reals[i]
+                interface.set_value(i, &self.run.state.reals)
             };
         }
         Ok(())

@@ -10,6 +10,7 @@ use super::tracks::element_on_track;
 use crate::contact::law::elastic_law;
 use crate::contact::love::EdgeSoftness;
 use crate::contact::rolling::RacewaySide;
+use crate::geometry::hertz_constant::share_of_ring;
 use crate::scene::{Bearing, ContactEdge, DefectOn, Scene};
 use crate::surface::{Surface, SurfaceError, rounded};
 use std::borrow::Cow;
@@ -177,11 +178,19 @@ fn needed(scene: &Scene, pair: [&Surface; 2], on: DefectOn) -> f64 {
     sides(on).iter().map(of).fold(0.0, f64::max)
 }
 
-/// How soft sharp edges are; `None` for half-spaces.
+/// How soft sharp edges are; `None` for half-spaces. With two materials they are those of the rings, unless all defects
+/// are on elements.
 pub(super) fn softness_of_edges(scene: &Scene) -> Option<EdgeSoftness> {
     match scene.contact.edge {
         ContactEdge::HalfSpace => None,
-        ContactEdge::Step => Some(EdgeSoftness::of_steps(scene.bearing.poissons_ratio)),
+        ContactEdge::Step => {
+            let (bearing, ring) = (&scene.bearing, share_of_ring(&scene.bearing));
+            let on_elements = scene.defects.iter().all(|defect| matches!(defect.on, DefectOn::Element { .. }));
+            Some(match bearing.element_poissons_ratio {
+                Some(ratio) if on_elements => EdgeSoftness::of_steps_in(ratio, 1.0 - ring),
+                _ => EdgeSoftness::of_steps_in(bearing.poissons_ratio, ring),
+            })
+        }
     }
 }
 

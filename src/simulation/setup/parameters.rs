@@ -33,7 +33,7 @@ pub(in crate::simulation) fn with_parameters(
     for ((&quantity, &value), &integer) in quantities.iter().zip(values).zip(integers) {
         let Quantity::Parameter(parameter) = quantity else { continue };
         match parameter {
-            Parameter::RadialClearance => changed.bearing.radial_clearance = value,
+            Parameter::InternalClearance => changed.bearing.radial_clearance = 0.5 * value,
             Parameter::ContactAngle => changed.bearing.set_contact_angle(value),
             // One that the host leaves alone stays that of the free angle, which the host may have set.
             Parameter::OperatingAngle if Some(value) == scene.bearing.given_operating_angle() => {}

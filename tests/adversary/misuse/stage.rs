@@ -69,7 +69,7 @@ impl Stage {
     /// Whether it takes a new contact map to set this.
     pub(super) fn takes_long(&self, reference: u32) -> bool {
         let name = self.variable(reference).name.as_str();
-        self.mapped && matches!(name, "bearing.radial_clearance" | "defect.length" | "defect.depth")
+        self.mapped && matches!(name, "bearing.internal_clearance" | "defect.length" | "defect.depth")
     }
 
     pub(super) fn references(&self, wanted: impl Fn(&Variable) -> bool) -> Vec<u32> {
@@ -113,7 +113,7 @@ pub(super) fn gentle(variable: &Variable, chance: &mut Chance) -> f64 {
         "shaft.x" | "shaft.y" | "housing.x" | "housing.y" => (-15e-6, 15e-6),
         "shaft.vx" | "shaft.vy" | "housing.vx" | "housing.vy" => (-5e-3, 5e-3),
         "shaft.ax" | "shaft.ay" | "housing.ax" | "housing.ay" => (-10.0, 10.0),
-        "bearing.radial_clearance" => (1e-6, 2e-5),
+        "bearing.internal_clearance" => (2e-6, 4e-5),
         "contact.damping" => (0.1, 1.0),
         "cage.slip" => (0.0, 0.1),
         "cage.initial_angle" | "shaft.initial_angle" | "housing.initial_angle" => (-7.0, 7.0),

@@ -151,7 +151,7 @@ fn dependencies_are_those_of_every_element_before_and_after_initialization() {
     let (path, force, speed) =
         (host.reference("element.path"), host.reference("element.force.inner"), host.reference("shaft.speed"));
     let initial = dependencies(&host, path);
-    assert!(initial.contains(&(9, host.reference("bearing.radial_clearance"), 0, DEPENDENT)));
+    assert!(initial.contains(&(9, host.reference("bearing.internal_clearance"), 0, DEPENDENT)));
     assert_eq!(dependencies(&host, speed), []);
     host.start();
     // A state follows no input at once; a force follows the motion that is given.

@@ -2,14 +2,12 @@
 
 mod critical_load;
 mod in_space;
-mod load_rating;
 mod static_bearing;
 mod stiffness;
 mod study;
 
 pub use critical_load::{Bottom, CriticalLoad, NoCriticalLoad, Sensitivity};
 pub use in_space::{BalanceInSpace, BearingInSpace, LoadedBall};
-pub use load_rating::{dynamic_rating, static_rating};
 pub use static_bearing::{Balance, LoadedElement, StaticBearing};
 pub use stiffness::{min_mean_max, sweep};
 pub use study::StaticError;

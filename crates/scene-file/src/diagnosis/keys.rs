@@ -81,7 +81,11 @@ pub(super) fn of_table(of: &'static TableOf, found: &Found<'_, '_>, line: &dyn F
             continue;
         }
         let keys = two.map(|key| path(name, key, false));
-        if !there.iter().any(|key| two.contains(key) || exclude_each_other(&keys[0], &path(name, key, false))) {
+        let own = |key: &str| two.contains(&"density_kg_m3") && key == "element_density_kg_m3";
+        if !there
+            .iter()
+            .any(|key| two.contains(key) || own(key) || exclude_each_other(&keys[0], &path(name, key, false)))
+        {
             keep(KeyFault::Neither { line: head, keys }, two);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::diameters;
 use super::faults::{Faults, TableFault, only_one};
-use crate::catalogue::{CatalogueBearing, NotInCatalogue, catalogued};
+use crate::catalogue::{CatalogueBearing, designation};
 use brinell::scene::quantity::ELEMENT_COUNT;
 use brinell::scene::{
     Bearing, BearingError, Crown, DegreesOfFreedom, ElementInertia, FreedomError, Gyroscopic, Roller, RollerProfile,
@@ -18,14 +18,20 @@ const CONFORMITY: f64 = 0.52;
 const YOUNGS_MODULUS_GPA: f64 = 207.0;
 const POISSONS_RATIO: f64 = 0.3;
 const DENSITY_KG_M3: f64 = 7800.0;
+/// Silicon nitride, of which the elements of hybrid bearings are: modulus and density as makers of them publish (300 to
+/// 315 GPa, 3200 to 3290 kg/m³), Poisson's ratio between their 0.24 and 0.27.
+const CERAMIC_MODULUS_GPA: f64 = 310.0;
+const CERAMIC_RATIO: f64 = 0.26;
+const CERAMIC_DENSITY_KG_M3: f64 = 3200.0;
 
 /// The keys as they stand in the file.
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BearingTable {
-    /// Name of a deep groove, angular contact or cylindrical roller bearing, as 6205, 7205B or NU205; its elements,
-    /// its pitch diameter, conformity 0.52 and steel hold where no key beside it says otherwise. Without it dimensions
-    /// and material are needed.
+    /// Name of a deep groove, angular contact or cylindrical roller bearing as its maker writes it: 6205, SKF
+    /// 6205-2Z/C3, 7205 BEP, NU 205 ECP. Its elements, its pitch diameter, conformity 0.52, steel (HC: elements of
+    /// silicon nitride) and the middle of its clearance class (CN without one) hold where no key beside it says
+    /// otherwise. Without it dimensions and material are needed.
     catalogue: Option<String>,
     /// What rolls; without it balls, or what the bearing of the catalogue has. Cylindrical rollers need
     /// roller_length_mm and have no groove.
@@ -58,7 +64,8 @@ pub(crate) struct BearingTable {
     /// The same of the outer ring.
     conformity_outer: Option<f64>,
     /// What separates a raceway from an element pressed to the other, R_o − R_i − 2r. How loose the bearing is may be
-    /// said by internal_clearance_um, axial_clearance_um or contact_angle_deg instead.
+    /// said by internal_clearance_um, axial_clearance_um or contact_angle_deg instead; with catalogue the default is
+    /// half of its class's middle.
     #[schemars(extend("default" = DEFAULT_CLEARANCE_UM))]
     radial_clearance_um: Option<f64>,
     /// Radial internal clearance of catalogues (ISO 5753), twice radial_clearance_um, which it replaces.
@@ -83,12 +90,18 @@ pub(crate) struct BearingTable {
     /// Who holds the balls' gyroscopic couple; of balls without inertia only.
     #[serde(default)]
     gyroscopic: Gyroscopic,
-    /// Of rings and elements.
+    /// Of the rings, and of the elements without element_youngs_modulus_gpa.
     youngs_modulus_gpa: Option<f64>,
-    /// Of rings and elements.
+    /// Of the rings, and of the elements without element_poissons_ratio.
     poissons_ratio: Option<f64>,
-    /// Of the elements; of no effect beside element_mass_g.
+    /// Of the elements; of no effect beside element_density_kg_m3 or element_mass_g.
     density_kg_m3: Option<f64>,
+    /// Of elements of another material than the rings, as ceramic ones of a hybrid bearing.
+    element_youngs_modulus_gpa: Option<f64>,
+    /// Of elements of another material than the rings.
+    element_poissons_ratio: Option<f64>,
+    /// Of elements of another material than the rings; of no effect beside element_mass_g.
+    element_density_kg_m3: Option<f64>,
     /// Mass of one element; computed from the density without it.
     element_mass_g: Option<f64>,
     /// Hertz constant of the inner contact; computed without it. Balls only.
@@ -125,8 +138,8 @@ impl BearingTable {
     /// What the keys leave open, from the catalogue.
     fn with_catalogue(mut self) -> Result<Self, TableFault> {
         let Some(name) = self.catalogue.as_deref() else { return Ok(self) };
-        let CatalogueBearing { designation: name, inside, .. } =
-            catalogued(name).ok_or_else(|| NotInCatalogue { name: name.to_owned() })?;
+        let read = designation(name)?;
+        let CatalogueBearing { designation: name, inside, .. } = read.bearing;
         let (kind, elements) = match inside.roller_length {
             None => (ElementKind::Ball, "balls"),
             Some(_) => (ElementKind::CylindricalRoller, "cylindrical rollers"),
@@ -138,9 +151,12 @@ impl BearingTable {
             if let Ok(DegreesOfFreedom::Two) = self.freedom() {
                 return Err(TableFault::AngularInPlane { name, angle });
             }
-            if self.radial_clearance_um.or(self.internal_clearance_um).or(self.axial_clearance_um).is_none() {
-                self.contact_angle_deg.get_or_insert(angle);
+            if self.is_silent_on_clearance() {
+                self.contact_angle_deg = Some(angle);
             }
+        }
+        if let Some(clearance) = read.clearance.filter(|_| self.is_silent_on_clearance()) {
+            self.internal_clearance_um = Some(clearance.middle_um());
         }
         self.roller_length_mm = self.roller_length_mm.or(inside.roller_length);
         self.element_count.get_or_insert(inside.element_count);
@@ -155,7 +171,19 @@ impl BearingTable {
         if self.element_mass_g.is_none() {
             self.density_kg_m3.get_or_insert(DENSITY_KG_M3);
         }
+        if read.hybrid {
+            self.element_youngs_modulus_gpa.get_or_insert(CERAMIC_MODULUS_GPA);
+            self.element_poissons_ratio.get_or_insert(CERAMIC_RATIO);
+            if self.element_mass_g.is_none() {
+                self.element_density_kg_m3.get_or_insert(CERAMIC_DENSITY_KG_M3);
+            }
+        }
         Ok(self)
+    }
+
+    fn is_silent_on_clearance(&self) -> bool {
+        let radial = self.radial_clearance_um.or(self.internal_clearance_um);
+        radial.or(self.axial_clearance_um).or(self.contact_angle_deg).is_none()
     }
 
     // 1e3 is exact and 1e-3 is not, so a division rounds once and a product twice.
@@ -194,6 +222,8 @@ impl BearingTable {
             gyroscopic: keys.gyroscopic,
             youngs_modulus: youngs_modulus_gpa * 1e9,
             poissons_ratio,
+            element_youngs_modulus: keys.element_youngs_modulus_gpa.map(|gpa| gpa * 1e9),
+            element_poissons_ratio: keys.element_poissons_ratio,
             element_mass: keys.element_mass_g.map(|mass| mass / 1e3),
             hertz_inner: keys.hertz_inner_n_m1_5,
             hertz_outer: keys.hertz_outer_n_m1_5,
@@ -277,7 +307,7 @@ impl BearingTable {
     }
 
     fn density(&self, element: &RollingElement, diameter_mm: f64) -> Result<f64, TableFault> {
-        match (self.density_kg_m3, self.element_mass_g) {
+        match (self.element_density_kg_m3.or(self.density_kg_m3), self.element_mass_g) {
             (Some(density), _) => Ok(density),
             (None, Some(mass)) => Ok(mass / 1e3 / element.volume(diameter_mm / 1e3)),
             (None, None) => {
@@ -292,7 +322,7 @@ fn needed<T>(value: Option<T>, key: &'static str) -> Result<T, TableFault> {
     value.ok_or(TableFault::Missing { key, why: "bearing.catalogue is not given either" })
 }
 
-/// Clearance where the file says none (µm).
+/// Clearance of a bearing with dimensions of its own where the file says none (µm).
 const DEFAULT_CLEARANCE_UM: f64 = 5.0;
 
 /// What the file says of how loose the bearing is, in SI units.

@@ -2,7 +2,8 @@
 //! in another unit is asked about. Nothing is refused for it.
 
 use super::mistaken::{UnitQuestion, meant};
-use crate::catalogue::{Inside, catalogued};
+use crate::catalogue::catalogued;
+use brinell::geometry::load_rating::load_ratings;
 use brinell::scene::Bearing;
 use std::f64::consts::PI;
 
@@ -238,11 +239,12 @@ impl Dimensions {
 
     /// Static load rating (N).
     fn rating(&self) -> Option<f64> {
-        let (element_count, element_diameter) = (self.count? as usize, self.diameter?);
-        let (pitch_diameter, roller_length) = (self.pitch?, self.length);
-        let (contact_angle, source) = (None, None);
-        let inside = Inside { element_count, element_diameter, pitch_diameter, roller_length, contact_angle, source };
-        Some(inside.static_rating()).filter(|rating| *rating > 0.0)
+        let (count, diameter, pitch) = (self.count? as usize, 1e-3 * self.diameter?, 1e-3 * self.pitch?);
+        let bearing = match self.length {
+            None => Bearing::steel_balls(count, diameter, pitch),
+            Some(length) => Bearing::steel_rollers(count, diameter, 1e-3 * length, pitch),
+        };
+        Some(load_ratings(&bearing).fixed).filter(|rating| *rating > 0.0)
     }
 
     /// The question about a value of a key, given with its table, where there is one.

@@ -14,7 +14,7 @@ pub(super) fn variables(simulation: &Simulation, interface: Interface) -> Vec<Va
         (Causality::Input, "Inputs"),
         (Causality::Parameter, "Parameters, fixed after initialization"),
         (Causality::Output, "Outputs"),
-        (Causality::Local, "Counters, local"),
+        (Causality::Local, "Local: only to be read"),
     ];
     let of_kind = |(kind, title): (Causality, &str)| {
         let rows: Vec<Value> = table.iter().filter(|row| row.variable.causality == kind).map(row).collect();

@@ -1,5 +1,5 @@
 //! What an engineer changes between runs: sizes of spalls, the cage's seed, the film's viscosity, a sensor's resonance,
-//! the recorder's rate and the seed of the elements' diameters.
+//! the recorder's rate, the seed of the elements' diameters and the clearance.
 //!
 //! These rows stand after all others, so that older ones keep their references.
 
@@ -47,6 +47,22 @@ impl Builder<'_> {
         let seed = scene.bearing.drawn_diameters.map(|drawn| drawn.seed);
         let what = "Seed of the elements' diameters";
         self.seed("bearing.element_diameter_seed", what, seed, Parameter::DiameterSeed);
+        self.internal_clearance();
+    }
+
+    /// Clearance as catalogues count, of bearings whose contact angle does not give it.
+    fn internal_clearance(&mut self) {
+        let bearing = &self.scene.bearing;
+        if bearing.contact_angle.is_none() {
+            let largest = 2.0 * bearing.element_diameter;
+            self.parameter(
+                "bearing.internal_clearance",
+                "Radial internal clearance (ISO 5753), from stop to stop; negative is a preload",
+                Q::Parameter(Parameter::InternalClearance),
+                Unit::Metre,
+                Limited { start: 2.0 * bearing.radial_clearance, min: -largest, max: largest, nominal: 1e-5 },
+            );
+        }
     }
 
     /// A seed, where something is drawn. Larger ones are none of FMI 2.0's integers: the scene's own holds.

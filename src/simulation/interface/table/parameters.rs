@@ -61,17 +61,12 @@ impl Builder<'_> {
     fn clearance_and_angles(&mut self) {
         let bearing = &self.scene.bearing;
         match bearing.contact_angle {
-            None => self.parameter(
+            None => self.push(
                 "bearing.radial_clearance",
-                "Radial internal clearance; negative is a preload",
-                Q::Parameter(Parameter::RadialClearance),
-                Unit::Metre,
-                Limited {
-                    start: bearing.radial_clearance,
-                    min: -bearing.element_diameter,
-                    max: bearing.element_diameter,
-                    nominal: 1e-5,
-                },
+                "Half of bearing.internal_clearance: what separates a raceway from an element on the other",
+                Kind::Real { unit: Unit::Metre, start: None, min: None, max: None, nominal: 1e-5 },
+                (Causality::Local, Variability::Fixed),
+                Q::RadialClearance,
             ),
             Some(start) => self.parameter(
                 "bearing.contact_angle",

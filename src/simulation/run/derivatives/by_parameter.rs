@@ -12,7 +12,8 @@ use crate::simulation::{Simulation, SimulationError};
 /// damping or a ring on a soft spring feels its own share.
 fn difference(parameter: Parameter, at: f64, nominal: f64, approach: f64) -> f64 {
     match parameter {
-        Parameter::RadialClearance | Parameter::SpallLength(_) | Parameter::SpallDepth(_) => approach,
+        Parameter::InternalClearance => 2.0 * approach,
+        Parameter::SpallLength(_) | Parameter::SpallDepth(_) => approach,
         Parameter::FilmViscosity => 1e-3 * at,
         // What turns a groove's centre by a micrometre or so over the fraction of a millimetre.
         Parameter::ContactAngle => 1e-5,

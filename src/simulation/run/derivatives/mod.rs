@@ -386,7 +386,7 @@ impl Simulation {
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Count(_) => 0.0,
             Quantity::SuggestedStep => 0.0,
-            Quantity::Speed(_) | Quantity::Load(..) | Quantity::Parameter(_) => 0.0,
+            Quantity::Speed(_) | Quantity::Load(..) | Quantity::RadialClearance | Quantity::Parameter(_) => 0.0,
         }
     }
 }

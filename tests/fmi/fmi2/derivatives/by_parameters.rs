@@ -9,7 +9,8 @@ use brinell_fmi::fmi2::*;
 /// How far a parameter is moved from where it is: other ways than those of the derivative itself.
 fn nudge_of(parameter: &Variable) -> f64 {
     match (&*parameter.name, &parameter.kind) {
-        ("bearing.radial_clearance" | "defect.length" | "defect.depth", _) => 3e-9,
+        ("bearing.internal_clearance", _) => 6e-9,
+        ("defect.length" | "defect.depth", _) => 3e-9,
         ("contact.damping", Kind::Real { nominal, .. }) => 0.03 * nominal,
         ("cage.slip" | "element.spin_slip", _) => 2e-3,
         (name, _) if name.ends_with("stiffness") => 3e3,
