@@ -151,6 +151,9 @@ impl Loads {
         let (axial, axial_source) = match axial {
             Some(axial) => (Some(axial), "as asked for"),
             None if leans => (Some(across), "as much along the axis, assumed"),
+            None if !asked.hosted && freedom.is_some_and(|freedom| freedom > 2) => {
+                (Some(0.1 * across), "a tenth of it along the axis, assumed: nothing else holds the shaft there")
+            }
             None => (None, ""),
         };
         let freedom = freedom.unwrap_or(if axial.is_some() { 3 } else { 2 });
@@ -162,7 +165,8 @@ impl Loads {
 
     /// Force (N) that contacts are prepared for under these loads.
     fn largest_force(&self, bearing: &Bearing) -> Result<f64> {
-        let mut scene = Scene::builder(bearing.clone()).build()?;
+        let mut scene = Scene::builder(Bearing::steel_balls(9, 8e-3, 40e-3)).build()?;
+        scene.bearing = bearing.clone();
         scene.shaft.load = [0.0, -self.across];
         scene.shaft.axial.load = self.axial.unwrap_or(0.0);
         Ok(largest_force(&scene))
@@ -350,6 +354,10 @@ mod tests {
             Asked { freedom: Some(2), ..asked },
         ] {
             assert!(text("mine", "6205", wrong).is_err(), "{wrong:?}");
+        }
+        for freedom in [3, 5] {
+            let own = text("mine", "6205", Asked { freedom: Some(freedom), ..Asked::default() }).unwrap();
+            assert_eq!(brinell_scene_file::from_toml(&own).unwrap().shaft.axial.load, 39.0, "{own}");
         }
     }
 
