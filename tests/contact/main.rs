@@ -17,6 +17,7 @@ mod rollers_near_defects;
 #[path = "../support/mod.rs"]
 mod support;
 mod surface;
+mod two_materials;
 
 use brinell::contact::element_on_raceway::{Across, ElementOnRaceway};
 use brinell::contact::map::{ContactMap, MapSpecification, Sequential};

@@ -190,8 +190,24 @@ fn a_bearing_of_the_catalogue_is_the_one_with_its_dimensions_and_a_key_beside_th
                      0.52\n\
                      conformity_outer = 0.52\nyoungs_modulus_gpa = 207\npoissons_ratio = 0.3\ndensity_kg_m3 = 7800\n";
     let catalogued = with("catalogue = \"6205\"\n");
-    assert_eq!(catalogued, with(published));
+    // The middle of class N, 5 to 20 um.
+    assert_eq!(catalogued, with(&format!("{published}internal_clearance_um = 12.5\n")));
     assert_eq!(catalogued, with("catalogue = \"6205-2RS\"\n"));
+    let clearance = |keys: &str| 2e6 * with(keys).radial_clearance;
+    for (keys, expected) in [
+        ("catalogue = \"SKF 6205-2Z/C3\"\n", 20.5),
+        ("catalogue = \"6205/C3\"\nradial_clearance_um = 4\n", 8.0),
+        ("catalogue = \"608\"\n", 7.5),
+        ("catalogue = \"NU312\"\n", 55.0),
+        (published, 10.0),
+    ] {
+        assert!(near(clearance(keys), expected), "{keys}: {}", clearance(keys));
+    }
+    let hybrid = with("catalogue = \"6205/HC5C3\"\nelement_poissons_ratio = 0.27\n");
+    let material = (hybrid.element_youngs_modulus, hybrid.element_poissons_ratio, hybrid.density);
+    assert_eq!(material, (Some(310e9), Some(0.27), 3200.0));
+    let own = with(&format!("{published}element_youngs_modulus_gpa = 310\nelement_density_kg_m3 = 3200\n"));
+    assert_eq!((own.element_youngs_modulus, own.element_poissons_ratio, own.density), (Some(310e9), None, 3200.0));
     let other = with("catalogue = \"6205\"\nelement_count = 8\ngroove_diameter_mm = 8.19\nelement_mass_g = 2.0\n");
     assert_eq!(other.element_count, 8);
     assert!(near(other.conformity_outer, 8.19 / 15.88) && other.element_mass == Some(2e-3));

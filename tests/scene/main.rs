@@ -5,4 +5,5 @@ mod answers;
 mod bad_profile;
 mod bad_scene;
 mod good_scene;
+mod ratings;
 mod shipped_scenes;

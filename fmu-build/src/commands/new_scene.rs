@@ -191,6 +191,7 @@ fn text(name: &str, called: &str, read: &Designation, asked: Asked) -> Result<St
         what,
         source,
         load => across.to_string(),
+        load_assumed => asked.load.is_none(),
         load_source => &loads.across_source,
         largest_force => format!("{:<19?}", loads.largest_force(&bearing)?),
         mapped => spall.is_some() || hosted,

@@ -51,6 +51,33 @@ fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
 }
 
 #[test]
+fn names_are_read_as_makers_write_them_by_every_command() {
+    let folder = common::folder("makers-names");
+    let out = done(&mut brinell(&["catalogue", "skf 6205-2z/c3", "--json"])).out;
+    let bearing: Value = serde_json::from_str::<Vec<Value>>(&out).unwrap().remove(0);
+    assert_eq!((&bearing["name"], &bearing["internal_clearance_um"]), (&"6205".into(), &20.5.into()), "{out}");
+    let new = ["new", "mine", "--bearing", "NU 205 ECP/C3", "--hosted", "--load", "450"];
+    once(&done(brinell(&new).current_dir(&folder)).err, "EC (the maker's design), P (cage)");
+    let own = fs::read_to_string(folder.join("mine.toml")).unwrap();
+    once(&own, "catalogue = \"NU 205 ECP/C3\"");
+    once(&own, "internal_clearance_um = 47.5          # assumed: middle of C3, 35 to 60 um (ISO 5753-1)");
+    once(&own, "largest_force_n = 1000.0");
+    let tilting = ["new", "tilts", "--bearing", "6205", "--hosted", "--load", "450", "--degrees-of-freedom", "5"];
+    done(brinell(&tilting).current_dir(&folder));
+    once(&fs::read_to_string(folder.join("tilts.toml")).unwrap(), "degrees_of_freedom = 5");
+    let run = ["run", "--bearing", "6205 ZZ C4", "--stop", "0.001", "--no-figure"];
+    once(&done(brinell(&run).current_dir(&folder)).err, "C4, 23 to 41 um (ISO 5753-1), of which the middle, 32 um");
+    let hybrid = own.replace("NU 205 ECP/C3", "NU 205 ECM/HC5C3").replace("internal_clearance_um", "# internal");
+    fs::write(folder.join("hybrid.toml"), hybrid).unwrap();
+    let said = done(brinell(&["run", "hybrid.toml", "--stop", "0.001", "--no-figure"]).current_dir(&folder)).err;
+    assert!(said.contains("silicon nitride") && said.contains("C3, 35 to 60 um"), "{said}");
+    let said = refused(brinell(&["new", "none", "--bearing", "7208-2RS"]).current_dir(&folder));
+    assert!(["7208C", "7208AC", "7208B"].iter().all(|name| said.contains(name)) && !said.contains("6208"), "{said}");
+    let said = refused(&mut brinell(&["catalogue", "6313"]));
+    assert!(said.contains("6301 to 6312") && said.contains("bearing.element_count"), "{said}");
+}
+
+#[test]
 fn scenes_that_are_written_have_the_schema_beside_them_that_they_name() {
     let folder = common::folder("schema-beside");
     let schema = folder.join("scene.schema.json");

@@ -11,7 +11,7 @@ use super::{CatalogueBearing, ClearanceRange, Kind, NotInCatalogue, catalogue};
 use std::fmt;
 
 /// Makers of bearings, who stand in front of a name or behind it.
-const MAKERS: [&str; 44] = [
+const MAKERS: [&str; 64] = [
     "NTN-SNR",
     "SKF",
     "FAG",
@@ -56,6 +56,26 @@ const MAKERS: [&str; 44] = [
     "LINK-BELT",
     "CRAFT",
     "NIS",
+    "ISB",
+    "CX",
+    "VXB",
+    "BECO",
+    "PFI",
+    "FERSA",
+    "PEER",
+    "HOFFMANN",
+    "EBC",
+    "HCH",
+    "CYSD",
+    "DYZV",
+    "AST",
+    "STIEBER",
+    "NORMA",
+    "RIV",
+    "ASAHI",
+    "FYH",
+    "DODGE",
+    "MCGILL",
 ];
 /// What may stand in front of a number, and what it is.
 const PREFIXES: [(&str, Front); 17] = [
@@ -162,6 +182,9 @@ fn without_maker(text: &str) -> (Option<&'static str>, String) {
     (None, text.to_owned())
 }
 
+/// Letters of a word in front of a name, at least: fewer are a kind of bearing.
+const LEAST_OF_WORD: usize = 4;
+
 const SEPARATORS: [char; 11] = [' ', '-', '/', '.', ',', '(', ')', '+', ':', ';', '*'];
 
 /// The number of a name.
@@ -233,7 +256,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// What stands in front of the number; gives the rest.
+    /// What stands in front of the number; gives the rest. A word that is not known may be a maker.
     fn take_front(&mut self, text: &str) -> String {
         for (code, what) in PREFIXES {
             let Some(rest) = text.strip_prefix(code) else { continue };
@@ -248,6 +271,11 @@ impl Parts {
                 }
                 return rest.to_owned();
             }
+        }
+        let word = text.split(SEPARATORS).next().filter(|word| word.chars().count() >= LEAST_OF_WORD);
+        if let Some(word) = word.filter(|word| word.chars().all(char::is_alphabetic)) {
+            self.asked.push((word.to_owned(), None));
+            return self.take_front(text[word.len()..].trim_start_matches(SEPARATORS));
         }
         text.to_owned()
     }
@@ -399,7 +427,7 @@ mod tests {
     #[test]
     fn what_is_no_name_of_the_catalogue_is_refused() {
         for name in
-            ["", "NA205", "NU", "62055", "bearing 6205", "6205x", "NU205Q", "7205", "7205A", "7213B", "6205é", "2"]
+            ["", "NA205", "NU", "62055", "QJ 205", "UC 205", "6205x", "NU205Q", "7205", "7205A", "7213B", "6205é", "2"]
         {
             assert!(designation(name).is_err(), "{name}");
         }
@@ -414,7 +442,9 @@ mod tests {
         let full = said("SKF 6205-2Z/C3");
         let parts = ["a 6205 of SKF: ", "C3, 13 to 28 um (ISO 5753-1)", "20.5 um", "without effect here: 2Z (seals"];
         assert!(parts.iter().all(|part| full.contains(part)), "{full}");
-        assert!(said("6205-ABCDEF").contains("what does ABCDEF say?"));
+        for (name, word) in [("6205-ABCDEF", "ABCDEF"), ("bearing 6205", "BEARING"), ("Nobody 6205", "NOBODY")] {
+            assert!(said(name).contains(&format!("what does {word} say?")), "{}", said(name));
+        }
         assert!(said("NU 210 ECM/HC5C3").contains("silicon nitride"));
         assert!(said("7205 BEP/C3").contains("C3 (of bearings without a contact angle"));
     }

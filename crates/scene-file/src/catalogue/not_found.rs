@@ -49,7 +49,7 @@ impl NotInCatalogue {
     pub(super) fn of(name: &str) -> Self {
         let plain = name.to_uppercase();
         let (letters, digits) = series(&plain);
-        if letters.is_empty() && digits.len() >= 4 {
+        if letters == Some("") && digits.len() >= 4 {
             let angles: Vec<String> = catalogue()
                 .filter_map(|bearing| {
                     let angle = bearing.inside.contact_angle?;
@@ -61,18 +61,25 @@ impl NotInCatalogue {
                 return Self::NoAngle { name: name.to_owned(), known: angles.join(", "), other: OTHER_ANGLE };
             }
         }
-        Self::Unknown { name: name.to_owned(), hint: hint(letters, digits) }
+        Self::Unknown { name: name.to_owned(), hint: letters.map_or_else(String::new, |letters| hint(letters, digits)) }
     }
 }
 
-/// The digits where a number may be, the first three or more, and NU of a roller bearing's letters in front of them.
-fn series(name: &str) -> (&'static str, &str) {
+/// The digits where a number may be, the first three or more, and NU of a roller bearing's letters in front of them;
+/// `None` of another kind's.
+fn series(name: &str) -> (Option<&'static str>, &str) {
     let runs = name.split(|c: char| !c.is_ascii_digit()).filter(|run| !run.is_empty());
     let digits = runs.clone().find(|run| run.len() >= 3).or_else(|| runs.clone().next()).unwrap_or_default();
     let front = name.split(digits).next().filter(|_| !digits.is_empty()).unwrap_or_default();
     let letters = front.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
     let word = &letters[letters.rfind(|c: char| !c.is_ascii_alphabetic()).map_or(0, |at| at + 1)..];
-    (if ["NUP", "NU", "NJ", "N"].contains(&word) { "NU" } else { "" }, digits)
+    let letters = match word {
+        "NUP" | "NU" | "NJ" | "N" => Some("NU"),
+        // Makers, whose names are longer.
+        _ if word.is_empty() || word.len() > 2 => Some(""),
+        _ => None,
+    };
+    (letters, digits)
 }
 
 /// What the catalogue has of a series, or the name that was meant.
@@ -88,6 +95,10 @@ fn hint(letters: &str, digits: &str) -> String {
         named.iter().flat_map(|series| of_kind().filter(move |name| name.starts_with(series.as_str()))).collect();
     let meant = nearest(of_kind(), &format!("{letters}{digits}")).filter(|near| is_slip(near, digits));
     match (meant, named, &of_series[..]) {
+        // Another series, of wider bearings.
+        _ if !letters.is_empty() && digits.len() == 4 => {
+            ": of cylindrical roller bearings it has NU2.. and NU3..".into()
+        }
         (Some(near), ..) => format!(" (did you mean {near}?)"),
         (None, Some(series), [first, .., last]) => format!(": of {series}.. it has {first} to {last}"),
         _ => String::new(),
@@ -116,7 +127,9 @@ mod tests {
             ("SKF 6313-2Z", ": of 63.. it has 6301 to 6312"),
             ("NU213", ": of NU2.. it has NU202 to NU212"),
             ("6250", " (did you mean 6205?)"),
-            ("NJ 2205", " (did you mean NU205?)"),
+            ("NJ 2205", ": of cylindrical roller bearings it has NU2.. and NU3.."),
+            ("NU25", " (did you mean NU205?)"),
+            ("UC205", ""),
             ("30205", ""),
             ("bearing", ""),
             ("", ""),

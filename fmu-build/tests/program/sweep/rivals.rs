@@ -93,3 +93,22 @@ fn recorded_figures_of_a_cage_take_the_place_of_others_and_one_figure_does_not_t
     let said = refused(&path, &folder.join("out"), &[]);
     assert!(said.contains("cage.irregularity and cage.wander exclude each other: give only one"), "{said}");
 }
+
+#[test]
+fn a_name_takes_the_place_of_the_bearing_that_the_scene_has() {
+    let folder = common::folder("sweep-names");
+    let own = "name = \"own\"\nshaft.motion = \"internal\"\nshaft.speed_hz = 10\nhousing.motion = \"internal\"\n\
+        bearing.element_count = 7\nbearing.element_diameter_mm = 9.0\nbearing.pitch_diameter_mm = 40.0\n\
+        bearing.groove_diameter_mm = 9.4\nbearing.internal_clearance_um = 3.0\nbearing.youngs_modulus_gpa = 210\n\
+        bearing.poissons_ratio = 0.3\nbearing.density_kg_m3 = 7800\n";
+    for (name, count, clearance) in [("6205", 9, 6.25e-6), ("6206/C3", 9, 10.25e-6), ("NU 205", 13, 16.25e-6)] {
+        let path = swept(&folder, own, &[("bearing.catalogue", &format!("{name:?}"))]);
+        let bearing = brinell_scene_file::from_toml(&scene_of(&path, &folder.join("out"), "0")).unwrap().bearing;
+        assert_eq!((bearing.element_count, bearing.radial_clearance), (count, clearance), "{name}");
+        assert_eq!(bearing.youngs_modulus, 210e9);
+    }
+    // What the sweep says beside the name stays.
+    let path = swept(&folder, own, &[("bearing.catalogue", "\"6205/C3\""), ("bearing.internal_clearance_um", "8.0")]);
+    let bearing = brinell_scene_file::from_toml(&scene_of(&path, &folder.join("out"), "0")).unwrap().bearing;
+    assert_eq!((bearing.element_count, bearing.radial_clearance), (9, 4e-6));
+}
