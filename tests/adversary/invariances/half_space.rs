@@ -91,7 +91,7 @@ impl Meeting {
         let bearing = Bearing::smooth(case);
         let Grooves::Each(inner, outer) = case.grooves else { unreachable!("drawn so") };
         let r = bearing.r;
-        let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
+        let modulus = case.effective_modulus();
         let [raceway, conformity] = match outside(pair) {
             true => [bearing.rho_0 + r, outer],
             false => [-(bearing.rho_0 - bearing.clearance - r), inner],

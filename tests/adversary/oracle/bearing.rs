@@ -47,7 +47,7 @@ impl Bearing {
     pub fn smooth(case: &Case) -> Self {
         let (d, pitch, clearance) = (case.diameter_mm * 1e-3, case.pitch_mm * 1e-3, case.clearance_um * 1e-6);
         let (r, r_o, r_i) = (d / 2.0, (pitch + d + clearance) / 2.0, (pitch - d - clearance) / 2.0);
-        let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
+        let modulus = case.effective_modulus();
         let (f_i, f_o) = match case.grooves {
             Grooves::Equal(groove) => (groove / (2.0 * case.diameter_mm), groove / (2.0 * case.diameter_mm)),
             Grooves::Each(inner, outer) => (inner, outer),

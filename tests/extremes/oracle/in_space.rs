@@ -92,6 +92,7 @@ fn as_case(scene: &Scene) -> SpatialCase {
         shoulders_mm: [None; 2],
         modulus_gpa: b.youngs_modulus * 1e-9,
         poisson: b.poissons_ratio,
+        element: b.element_youngs_modulus.zip(b.element_poissons_ratio).map(|(modulus, ratio)| [modulus * 1e-9, ratio]),
         density: b.density,
         mass_g: None,
         hertz: [None; 2],

@@ -2,6 +2,8 @@
 
 use brinell::geometry::hertz_constant::HertzConstants;
 use brinell::scene::Scene;
+use brinell::simulation::Simulation;
+use brinell::simulation::interface::table::Causality;
 use brinell_analysis::statics::StaticBearing;
 use std::f64::consts::TAU;
 
@@ -56,6 +58,33 @@ fn a_catalogues_clearance_is_twice_the_radial_one_and_gives_the_published_displa
         assert!((found / standard - 1.0).abs() < 4e-4, "{clearance}: {found}, not {standard}");
     }
     assert_eq!(displacement("internal_clearance_um = 10"), displacement("radial_clearance_um = 5"));
+}
+
+#[test]
+fn a_host_sets_the_clearance_of_catalogues_and_reads_half_of_it() {
+    let run = |clearance: &str, set: Option<f64>| {
+        let mut simulation = Simulation::new(scene(clearance).unwrap(), None).unwrap();
+        if let Some(set) = set {
+            simulation.set("bearing.internal_clearance", set).unwrap();
+        }
+        let both = ["bearing.internal_clearance", "bearing.radial_clearance"].map(|name| simulation.get(name).unwrap());
+        simulation.initialize(0.0).unwrap();
+        simulation.step(1e-3).unwrap();
+        assert_eq!(simulation.get("bearing.radial_clearance").unwrap(), both[1]);
+        (both, simulation.get("shaft.y").unwrap())
+    };
+    let (own, as_it_is) = run("internal_clearance_um = 10", None);
+    assert_eq!(own, [2.0 * 5e-6, 5e-6]);
+    // A half is exact: what a host sets is what a scene says, to the last bit.
+    assert_eq!(run("internal_clearance_um = 40", Some(own[0])), (own, as_it_is));
+    assert_ne!(run("internal_clearance_um = 40", None).1, as_it_is);
+    let mut simulation = Simulation::new(scene("internal_clearance_um = 10").unwrap(), None).unwrap();
+    let said = simulation.set("bearing.radial_clearance", 1e-6).unwrap_err().to_string();
+    assert!(said.contains("bearing.radial_clearance"), "{said}");
+    let of = |name: &str| simulation.variable(simulation.reference(name).unwrap()).unwrap().clone();
+    let (internal, radial) = (of("bearing.internal_clearance"), of("bearing.radial_clearance"));
+    assert_eq!((internal.causality, radial.causality), (Causality::Parameter, Causality::Local));
+    assert!(internal.reference > radial.reference && radial.description.starts_with("Half of"), "{radial:?}");
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub struct Case {
     pub catalogue: bool,
     pub modulus_gpa: f64,
     pub poisson: f64,
+    /// Young's modulus (GPa) and Poisson's ratio of elements of another material.
+    pub element: Option<[f64; 2]>,
     pub density: Option<f64>,
     pub mass_g: Option<f64>,
     /// Hertz constants that override the computed ones, inner and outer (N/m^1.5).
@@ -191,6 +193,7 @@ impl Case {
             catalogue: false,
             modulus_gpa: 207.0,
             poisson: 0.3,
+            element: None,
             density: Some(7800.0),
             mass_g: None,
             hertz: [None; 2],
@@ -216,6 +219,12 @@ impl Case {
         }
     }
 
+    /// E* (Pa): what a ring and an element yield, added.
+    pub fn effective_modulus(&self) -> f64 {
+        let [modulus, ratio] = self.element.unwrap_or([self.modulus_gpa, self.poisson]);
+        1e9 / ((1.0 - self.poisson * self.poisson) / self.modulus_gpa + (1.0 - ratio * ratio) / modulus)
+    }
+
     /// Text of the scene file.
     pub fn toml(&self) -> String {
         let mut text = format!("name = \"adversary\"\ngravity_m_s2 = {:?}\n[bearing]\n", self.gravity);
@@ -236,6 +245,10 @@ impl Case {
         }
         put("youngs_modulus_gpa", self.modulus_gpa);
         put("poissons_ratio", self.poisson);
+        if let Some([modulus, ratio]) = self.element {
+            put("element_youngs_modulus_gpa", modulus);
+            put("element_poissons_ratio", ratio);
+        }
         put("outer_compliance_m_n", self.compliance);
         let keys = ["density_kg_m3", "element_mass_g", "hertz_inner_n_m1_5", "hertz_outer_n_m1_5"];
         for (key, value) in keys.into_iter().zip([self.density, self.mass_g, self.hertz[0], self.hertz[1]]) {

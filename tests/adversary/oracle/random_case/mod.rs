@@ -191,6 +191,8 @@ fn bearing(draw: &mut Draw) -> Case {
         clearance_um: clearance * 1e3,
         modulus_gpa: if usual { 207.0 } else { draw.log(1.0, 1000.0) },
         poisson: if usual { 0.3 } else { draw.between(-0.5, 0.49) },
+        // Of every fourth bearing, without a draw of its own: silicon nitride.
+        element: (count % 4 == 3).then_some([310.0, 0.26]),
         density: (mass_g.is_none() || draw.chance(0.5)).then_some(density),
         mass_g,
         hertz: [0, 1].map(|_| draw.chance(0.1).then(|| draw.log(1e8, 1e11))),

@@ -50,6 +50,7 @@ pub(super) fn rollers(draw: &mut Draw, case: &mut Case) {
     let laminae = draw.pick(&[10, 25, 40, 40, 101, 640]);
     case.roller =
         Some(Roller { length_mm: case.diameter_mm * draw.log(0.301, 2.99), laminae, crowned: draw.chance(0.6) });
+    case.element = None;
     (case.modulus_gpa, case.poisson, case.hertz) = (draw.between(200.1, 211.9), 0.3, [None; 2]);
     if case.mass_g.is_some() {
         case.mass_g = case.mass_g.map(|mass| mass * draw.log(0.5, 4.0));

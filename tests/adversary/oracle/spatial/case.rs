@@ -19,6 +19,8 @@ pub struct SpatialCase {
     pub shoulders_mm: [Option<f64>; 2],
     pub modulus_gpa: f64,
     pub poisson: f64,
+    /// Young's modulus (GPa) and Poisson's ratio of elements of another material.
+    pub element: Option<[f64; 2]>,
     pub density: f64,
     /// Of a ball, instead.
     pub mass_g: Option<f64>,
@@ -122,6 +124,7 @@ impl SpatialCase {
             shoulders_mm: [None; 2],
             modulus_gpa: 207.0,
             poisson: 0.3,
+            element: None,
             density: 7800.0,
             mass_g: None,
             hertz: [None; 2],
@@ -140,6 +143,12 @@ impl SpatialCase {
         }
     }
 
+    /// E* (Pa): what a ring and a ball yield, added.
+    pub fn effective_modulus(&self) -> f64 {
+        let [modulus, ratio] = self.element.unwrap_or([self.modulus_gpa, self.poisson]);
+        1e9 / ((1.0 - self.poisson * self.poisson) / self.modulus_gpa + (1.0 - ratio * ratio) / modulus)
+    }
+
     /// Text of the scene file.
     pub fn toml(&self) -> String {
         let mut text = format!("name = \"spatial\"\ngravity_m_s2 = {:?}\n[bearing]\n", self.gravity);
@@ -155,6 +164,10 @@ impl SpatialCase {
         }
         put("youngs_modulus_gpa", self.modulus_gpa);
         put("poissons_ratio", self.poisson);
+        if let Some([modulus, ratio]) = self.element {
+            put("element_youngs_modulus_gpa", modulus);
+            put("element_poissons_ratio", ratio);
+        }
         match self.mass_g {
             Some(mass) => put("element_mass_g", mass),
             None => put("density_kg_m3", self.density),

@@ -27,7 +27,7 @@ impl SpatialBearing {
         let reach = case.conformities.map(|f| f * d - r);
         let (clearance, lean) = closed(case, reach[0] + reach[1]);
         let (r_o, r_i) = ((pitch + d + clearance) / 2.0, (pitch - d - clearance) / 2.0);
-        let modulus = case.modulus_gpa * 1e9 / (2.0 * (1.0 - case.poisson * case.poisson));
+        let modulus = case.effective_modulus();
         let along = along_rolling(lean, [r_i, r_o], pitch, r);
         let curvatures = [0, 1].map(|side| [1.0 / r + along[side], 1.0 / r - 1.0 / (case.conformities[side] * d)]);
         let (sine, cosine, gamma) = (lean.map_or(0.0, f64::sin), (operating_deg * PI / 180.0).cos(), d / pitch);

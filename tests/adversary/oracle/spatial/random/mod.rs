@@ -72,6 +72,8 @@ fn bearing(draw: &mut Draw) -> SpatialCase {
         shoulders_mm: conformities.map(|f| draw.chance(0.3).then(|| f * diameter_mm * draw.between(0.1, 0.7))),
         modulus_gpa: if steel { 207.0 } else { draw.log(2.0, 400.0) },
         poisson: if steel { 0.3 } else { draw.between(0.15, 0.4) },
+        // Of every fourth bearing, without a draw of its own: silicon nitride.
+        element: (count % 4 == 3).then_some([310.0, 0.26]),
         mass_g: draw.chance(0.2).then(|| 4e-3 * diameter_mm.powi(3) * draw.log(0.3, 3.0)),
         hertz: [0, 1].map(|_| draw.chance(0.1).then(|| draw.log(5e9, 5e10))),
         damping: if draw.chance(0.7) {
