@@ -40,7 +40,7 @@ fn family(name: &str) -> String {
 fn beside(known: &Variable, at: f64) -> Option<f64> {
     let Kind::Real { min, max, nominal, .. } = known.kind else { return None };
     let step = match &*known.name {
-        name if name.ends_with("radial_clearance") || name.contains("length") || name.contains("depth") => 1e-8,
+        name if name.ends_with("internal_clearance") || name.contains("length") || name.contains("depth") => 1e-8,
         name if name.contains("viscosity") => 1e-2 * at,
         name if name.contains("stiffness") => 1e4,
         name if name.contains("load") || name.contains("preload") => 0.1,
