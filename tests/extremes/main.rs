@@ -137,10 +137,11 @@ extremes! {
 #[test]
 #[ignore = "writes docs/data/extremes.csv and tables of docs/evidence/stability.md"]
 fn write_the_table_of_stability() {
+    let in_space = oracle::in_space::rows();
+    let bearings = [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", in_space)];
     let mut table = csv::Writer::from_path(brinell_tests::root().join("docs/data/extremes.csv")).unwrap();
     table.write_record(["bearing"].into_iter().chain(row::COLUMNS)).unwrap();
-    let in_space = oracle::in_space::rows();
-    for (bearing, rows) in [("balls", rows(BALLS)), ("rollers", rows(ROLLERS)), ("in space", in_space)] {
+    for (bearing, rows) in bearings {
         for row in rows {
             table.write_record([bearing.to_owned()].into_iter().chain(row.cells())).unwrap();
         }
