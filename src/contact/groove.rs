@@ -13,8 +13,8 @@
 //! −n outside and of n inside, from e towards a. What is lost to rounding is that of distances of some 20 mm, 4e-18 m.
 //!
 //! The groove is taken as a circle up to 90°: where it ends, at the shoulder, nothing here knows. The other half of the
-//! circle, on the far side of its centre, is no steel. A ball with cos α ≤ 0 touches nothing: with c = ±(C − g), positive
-//! inside for g < C and outside for g > C, its approach is c − l < 0.
+//! circle, on the far side of its centre, is no steel. A ball with cos α ≤ 0 touches nothing: with c = ±(C − g),
+//! positive inside for g < C and outside for g > C, its approach is c − l < 0.
 
 use crate::contact::rolling::RacewaySide;
 use crate::numerics::number::{Number, Scalar};

@@ -1,8 +1,8 @@
 //! Dual numbers: a value with its derivatives by `K` directions, which every operation carries along exactly.
 //!
 //! They nest: of a dual number of dual numbers the derivatives have derivatives. Where a function has a kink the
-//! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant, or where
-//! a function says so the mean of both.
+//! derivatives are those of the branch that holds; at the kink itself those of the side on which it is constant, or
+//! where a function says so the mean of both.
 
 use super::{Number, Pair};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};

@@ -148,10 +148,10 @@ fn meaning(code: &str, kind: Kind) -> Option<Meaning> {
         return Some(Meaning::Clearance(class));
     }
     // P63 is P6 and C3.
-    if let Some(class) = code.strip_prefix('P').filter(|digits| digits.len() == 2 && "2456".contains(&digits[..1])) {
-        if let Some(class) = ClearanceClass::of(&format!("C{}", &class[1..])) {
-            return Some(Meaning::Clearance(class));
-        }
+    if let Some(class) = code.strip_prefix('P').filter(|digits| digits.len() == 2 && "2456".contains(&digits[..1]))
+        && let Some(class) = ClearanceClass::of(&format!("C{}", &class[1..]))
+    {
+        return Some(Meaning::Clearance(class));
     }
     let [own, asked]: [&[(&'static str, &[&str])]; 2] = match kind {
         Kind::DeepGroove => [&BALLS, &ASKED_OF_BALLS],

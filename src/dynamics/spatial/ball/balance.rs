@@ -8,7 +8,9 @@
 //! distance from a point is; that the grooves' centres form circles and that the centrifugal force grows outwards
 //! changes that by d/R_o, a hundredth, of the weakest of it. R_r therefore falls with u at each v, and along the u
 //! where it vanishes R_z falls with v: two searches for a zero of a falling function, one within the other, find it
-//! from anywhere. Newton's method in both finds it in a twentieth of the time, nearly always, and is tried first. A ball that nothing touches or moves rests against the outer groove without force where it is. One
+//! from anywhere. Newton's method in both finds it in a twentieth of the time, nearly always, and is tried first.
+//!
+//! A ball that nothing touches or moves rests against the outer groove without force where it is. One
 //! that nothing touches and whose weight and centrifugal force cancel within its clearance, to 1e-3 of either, has two
 //! balances: on either groove, under no force to speak of.
 //!
