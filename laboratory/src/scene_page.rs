@@ -86,6 +86,7 @@ fn limits(number: &Value) -> String {
 fn takes(schema: &Value, kind: &Value, path: &str) -> Option<String> {
     if of_table(schema, kind).is_some() {
         return Some(match kind {
+            either if either["anyOf"][1]["type"] == "string" => format!("text, or a table `[{path}]`"),
             several if several["anyOf"].is_array() => format!("table; `[[{path}]]` for each of several"),
             several if several["items"].is_object() => format!("table `[[{path}]]`, each as often as wanted"),
             _ => "table".to_owned(),

@@ -27,7 +27,9 @@ pub use error::{BearingError, DefectError, FreedomError, LONGEST_NAME, SceneErro
 pub use messages::{Bound, Limits, Plain};
 pub use ring::{AxialSupport, Motion, RepeatedInputs, Ring, TiltSupport};
 pub use sensor::{MOST_SENSOR_MODES, MOST_SENSORS, Sensor, SensorMode};
-pub use surfaces::{Defect, DefectLimit, DefectOn, DefectShape, Waviness, WavyBody};
+pub use surfaces::{
+    Defect, DefectLimit, DefectOn, DefectShape, Measured, MeasuredForm, MeasuredLevel, Waviness, WavyBody,
+};
 
 use serde::{Deserialize, Serialize};
 
@@ -110,7 +112,7 @@ impl Scene {
         let mut names: Vec<&str> = Vec::new();
         for defect in &self.defects {
             match &defect.shape {
-                DefectShape::Profile(name) if !names.contains(&name.as_str()) => names.push(name),
+                DefectShape::Profile(of) if !names.contains(&of.file.as_str()) => names.push(&of.file),
                 _ => {}
             }
         }

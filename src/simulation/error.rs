@@ -37,10 +37,11 @@ pub enum SimulationError {
     NotInSpace { what: &'static str, given: usize },
     /// A topography beside which balls run.
     #[error(
-        "defect.profile: the topography of the {ring} ring reaches from {first_mm:.4} to {last_mm:.4} mm across the \
-         groove (axial_mm), and the track at bearing.operating_angle_deg is at {track_mm:.4} mm: it must lie within"
+        "defect.profile: the topography of the {body} reaches from {:.4} to {:.4} mm across (axial_mm), and elements \
+         run {}: rows must reach there; axial_mm 0 is the bottom of the groove, the middle of a roller",
+        rows_mm[0], rows_mm[1], between(*track_mm)
     )]
-    OffTopography { ring: &'static str, track_mm: f64, first_mm: f64, last_mm: f64 },
+    OffTopography { body: &'static str, track_mm: [f64; 2], rows_mm: [f64; 2] },
     /// A communication step that cannot be taken. Nothing was changed.
     #[error("communication step {} s: it must be finite and above 0", Plain(*.0))]
     CommunicationStep(f64),
@@ -123,4 +124,9 @@ pub enum VariableError {
     /// Derivatives by time are given of order 1.
     #[error("derivative of order {order} of {name} by time: only order 1 is given")]
     OutputDerivative { name: String, order: i32 },
+}
+
+/// A place, or two between which it is.
+fn between([first, last]: [f64; 2]) -> String {
+    if first == last { format!("at {first:.4} mm") } else { format!("from {first:.4} to {last:.4} mm") }
 }

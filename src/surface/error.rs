@@ -50,6 +50,12 @@ pub enum SurfaceError {
         index: usize,
         why: &'static str,
     },
+    /// Ends that give no circle.
+    #[error(
+        "defect.profile.remove_form: both ends of the trace, a tenth of it each, have {points} points: it must be at \
+         least {fewest}, not all at one arc"
+    )]
+    NoCircle { points: usize, fewest: usize },
     /// A topography that gives one point twice.
     #[error("defect profile, line {line}: the point arc_mm = {arc_mm}, axial_mm = {axial_mm} is given a second time")]
     RepeatedPoint { line: usize, arc_mm: f64, axial_mm: f64 },

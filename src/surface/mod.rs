@@ -18,6 +18,7 @@
 mod csv;
 mod error;
 mod interval;
+mod measured;
 mod profile;
 pub(crate) mod roller_profile;
 mod topography;
@@ -26,6 +27,7 @@ mod waviness;
 
 pub use error::SurfaceError;
 pub use interval::Interval;
+pub use measured::{curvature_of_ends, line_through_ends};
 pub use profile::Profile;
 pub(crate) use profile::{Corner, rounded};
 pub use roller_profile::with_roller_profile;
@@ -51,18 +53,18 @@ impl Surface {
     /// # Errors
     /// A file that is missing, cannot be read, is longer than the body is around or deeper than it may be.
     pub fn load(defect: &Defect, profile_text: Option<&str>, bearing: &Bearing) -> Result<Self, SurfaceError> {
-        let name = match &defect.shape {
+        let measured = match &defect.shape {
             DefectShape::Spall { length, depth, edge_slope } => {
                 let met = defect.on.met_length(*length, bearing);
                 return Ok(Self::Profile(Profile::spall(met, *depth, *edge_slope)));
             }
-            DefectShape::Profile(name) => name,
+            DefectShape::Profile(measured) => measured,
         };
-        let text = profile_text.ok_or_else(|| SurfaceError::NoFile { name: name.clone() })?;
+        let text = profile_text.ok_or_else(|| SurfaceError::NoFile { name: measured.file.clone() })?;
         let surface = if csv::has_column(text, topography::AXIAL) {
-            Self::Topography(Topography::from_csv(text)?)
+            Self::Topography(Topography::measured(text, measured)?)
         } else {
-            Self::Profile(Profile::from_csv(text)?)
+            Self::Profile(Profile::measured(text, measured)?)
         };
         surface.check_fits(defect.on, bearing)?;
         Ok(surface)
@@ -77,7 +79,7 @@ impl Surface {
         let texts: Vec<(&str, &str)> = scene.profile_names().into_iter().zip(profiles).collect();
         let surface = |(index, defect): (usize, &Defect)| {
             let text = match &defect.shape {
-                DefectShape::Profile(name) => texts.iter().find(|(other, _)| other == name).map(|&(_, text)| text),
+                DefectShape::Profile(of) => texts.iter().find(|(name, _)| *name == of.file).map(|&(_, text)| text),
                 DefectShape::Spall { .. } => None,
             };
             let several = scene.defects.len() > 1;
@@ -153,7 +155,7 @@ impl Surface {
     }
 
     /// Depths (m) of all points.
-    pub(crate) fn depths(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+    pub fn depths(&self) -> Box<dyn Iterator<Item = f64> + '_> {
         match self {
             Self::Profile(profile) => Box::new(profile.points().iter().map(|&(_, depth)| depth)),
             Self::Topography(topography) => Box::new(topography.depths().iter().copied()),

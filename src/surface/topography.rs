@@ -10,8 +10,10 @@
 //! as given: 0 is the groove's bottom, and it grows with z along the groove's arc; balls at a contact angle run beside
 //! the bottom, by 1.08 mm at 15° in a 6205. Nothing is assumed symmetric. Grid lines need not be evenly spaced.
 
+use super::measured::treat;
 use super::trace::{ARC, DEPTH};
 use super::{Interval, Profile, SurfaceError, csv};
+use crate::scene::Measured;
 
 /// Column of the axial coordinate; its presence tells a topography from a trace.
 pub(super) const AXIAL: &str = "axial_mm";
@@ -73,6 +75,21 @@ impl Topography {
             axials: axials.iter().map(|axial| axial / 1e3).collect(),
             depths,
         })
+    }
+
+    /// The same with what is to be done to its depths: to each line along the arc as to a trace.
+    ///
+    /// # Errors
+    /// Those of [`from_csv`](Self::from_csv); lines too short for a circle.
+    pub fn measured(text: &str, of: &Measured) -> Result<Self, SurfaceError> {
+        let mut made = Self::from_csv(text)?;
+        let width = made.axials.len();
+        for j in 0..width {
+            let mut line: Vec<f64> = made.depths.iter().skip(j).step_by(width).copied().collect();
+            treat(&made.arcs, &mut line, of)?;
+            made.depths.iter_mut().skip(j).step_by(width).zip(line).for_each(|(depth, treated)| *depth = treated);
+        }
+        Ok(made)
     }
 
     /// With every depth multiplied by `factor`.

@@ -1,9 +1,11 @@
 //! A measured trace of a surface: `arc_mm`, `depth_um`.
 //!
-//! Depths are taken as they are, positive into the ring: level the trace and set its smooth ends to 0 before. The
-//! middle of the arc's range is put at the defect's angle, whatever the origin of the measurement.
+//! Depths are taken as they are, positive into the ring, or as [`measured`](super::measured) makes them. The middle of
+//! the arc's range is put at the defect's angle, whatever the origin of the measurement.
 
+use super::measured::treat;
 use super::{Profile, SurfaceError, csv};
+use crate::scene::Measured;
 
 /// Column of the arc.
 pub(super) const ARC: &str = "arc_mm";
@@ -17,6 +19,14 @@ impl Profile {
     /// An empty file, missing or unknown columns, values that are no finite numbers, fewer than two points, an arc that
     /// does not grow.
     pub fn from_csv(text: &str) -> Result<Self, SurfaceError> {
+        Self::measured(text, &Measured::default())
+    }
+
+    /// The same with what is to be done to its depths.
+    ///
+    /// # Errors
+    /// Those of [`from_csv`](Self::from_csv); a trace too short for a circle.
+    pub fn measured(text: &str, of: &Measured) -> Result<Self, SurfaceError> {
         let rows = csv::read(text, [ARC, DEPTH])?;
         let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
             return Err(SurfaceError::TooFewPoints { found: 0, column: ARC });
@@ -28,7 +38,11 @@ impl Profile {
                 return Err(SurfaceError::NotAscending { line: pair[1].line, arc_mm, previous_mm });
             }
         }
-        let point = |row: &csv::Row<2>| ((row.values[0] - middle) / 1e3, row.values[1] / 1e6);
-        Ok(Self::from_points(rows.iter().map(point).collect())?.into_samples())
+        let arcs: Vec<f64> = rows.iter().map(|row| (row.values[0] - middle) / 1e3).collect();
+        let mut depths: Vec<f64> = rows.iter().map(|row| row.values[1] / 1e6).collect();
+        if arcs.len() > 1 {
+            treat(&arcs, &mut depths, of)?;
+        }
+        Ok(Self::from_points(arcs.into_iter().zip(depths).collect())?.into_samples())
     }
 }

@@ -60,7 +60,7 @@ fn a_trace_is_centred_and_ends_at_depth_zero() {
 #[test]
 fn a_file_with_an_axial_column_is_a_topography() {
     let bearing = brinell_scene_file::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap().bearing;
-    let shape = DefectShape::Profile("x.csv".to_owned());
+    let shape = DefectShape::Profile("x.csv".into());
     let text = "arc_mm,axial_mm,depth_um\n0,0,0\n0,1,0\n1,0,3\n1,1,5\n";
     let Surface::Topography(topography) = Surface::load(&Defect::outer(0.0, shape), Some(text), &bearing).unwrap()
     else {

@@ -27,7 +27,7 @@ fn every_scene_that_cannot_be_is_told_with_the_quantity_its_key_its_value_and_th
 #[test]
 fn every_trace_that_cannot_be_is_told_with_its_line_or_position_the_value_and_the_limit() {
     let bearing = brinell_scene_file::from_toml(include_str!("../../scenes/er16k-tb1.toml")).unwrap().bearing;
-    let defect = Defect::outer(0.0, DefectShape::Profile("trace.csv".to_owned()));
+    let defect = Defect::outer(0.0, DefectShape::Profile("trace.csv".into()));
     snapshot::compare(&file("answers_to_traces.txt"), |lines| {
         let text: String = lines.lines().map(|line| format!("{}\n", line.trim_start_matches(['|', ' ']))).collect();
         Surface::load(&defect, Some(&text), &bearing).map_or_else(|error| error.to_string(), |_| "accepted".to_owned())

@@ -6,7 +6,7 @@ use brinell::surface::{Profile, Surface};
 #[test]
 fn a_missing_file_is_refused_with_its_name() {
     let bearing = brinell_scene_file::from_toml(super::answers::GOOD).unwrap().bearing;
-    let defect = Defect::outer(0.0, DefectShape::Profile("trace.csv".to_owned()));
+    let defect = Defect::outer(0.0, DefectShape::Profile("trace.csv".into()));
     let message = Surface::load(&defect, None, &bearing).unwrap_err().to_string();
     assert_eq!(message, "defect profile \"trace.csv\": the file is missing");
 }

@@ -35,7 +35,7 @@ fn pit(side: RacewaySide) -> String {
 
 /// The defect that a file describes, its middle below the bearing's and `off` (rad) ahead.
 fn defect(on: DefectOn, off: f64) -> Defect {
-    Defect { on, angle: off - FRAC_PI_2, shape: DefectShape::Profile("measured.csv".to_owned()) }
+    Defect { on, angle: off - FRAC_PI_2, shape: DefectShape::Profile("measured.csv".into()) }
 }
 
 /// A 6205 whose shaft is the host's, ball 1 below.
@@ -154,6 +154,31 @@ fn a_topography_that_does_not_reach_the_track_is_refused_with_both_places() {
     let rigid = held(defect(DefectOn::Outer, 0.0), ContactLaw::Hertz);
     let refused = Simulation::new(rigid, [&*pit(RacewaySide::Outer)]).unwrap_err().to_string();
     assert!(refused.contains("use map or love for a topography"), "{refused}");
+}
+
+#[test]
+fn a_topography_beside_the_track_is_refused_on_every_body_whatever_the_degrees_of_freedom() {
+    let beside = text(0.1, [2.5, 3.5], |s, y| 5.0 * hump(s, 0.1) * hump(y - 3.0, 0.4));
+    let across = text(0.1, [-0.5, 2.0], |s, y| 5.0 * hump(s, 0.1) * hump(y - 0.5, 0.4));
+    for on in [DefectOn::Outer, DefectOn::Inner, DefectOn::Element { element: 0, tilt: 0.0 }] {
+        for freedom in [DegreesOfFreedom::Two, DegreesOfFreedom::Three, DegreesOfFreedom::Five] {
+            let mut scene = held(defect(on, 0.0), ContactLaw::Map);
+            (scene.bearing.degrees_of_freedom, scene.bearing.operating_angle) = (freedom, Some(0.0));
+            if freedom == DegreesOfFreedom::Two {
+                (scene.bearing.contact_angle, scene.bearing.operating_angle) = (None, None);
+            }
+            let refused = Simulation::new(scene.clone(), [&*beside]).unwrap_err().to_string();
+            assert!(refused.contains("from 2.5000 to 3.5000 mm") && refused.contains("run at 0.0000 mm"), "{refused}");
+            assert!(Simulation::new(scene, [&*across]).is_ok(), "{on:?} {freedom:?}");
+        }
+    }
+    // Rollers of 9 mm run on rows up to 4.5 mm beside their middle.
+    let mut rollers = crate::support::shipped("nu205-healthy");
+    (rollers.defects, rollers.contact.law) = (vec![defect(DefectOn::Outer, 0.0)], ContactLaw::Map);
+    assert!(Simulation::new(rollers.clone(), [&*beside]).is_ok());
+    let off = text(0.1, [5.0, 6.0], |s, y| 5.0 * hump(s, 0.1) * hump(y - 5.5, 0.4));
+    let refused = Simulation::new(rollers, [&*off]).unwrap_err().to_string();
+    assert!(refused.contains("run from -4.5000 to 4.5000 mm"), "{refused}");
 }
 
 #[test]

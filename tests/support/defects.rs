@@ -52,7 +52,7 @@ pub fn held(defect: Defect) -> Scene {
 
 /// A spall of 10° in the inner raceway that element 1, under the load at the start, enters after 5 ms.
 pub fn inner() -> Scene {
-    let mut scene = held(Defect::inner(-105.8f64.to_radians(), DefectShape::Profile(String::new())));
+    let mut scene = held(Defect::inner(-105.8f64.to_radians(), DefectShape::Profile("".into())));
     let length = 10f64.to_radians() * scene.bearing.inner_raceway_radius();
     scene.defects[0].shape = spall(length, 100e-6);
     scene.cage.initial_angle = -FRAC_PI_2;

@@ -3,6 +3,7 @@
 
 pub mod modes;
 pub mod pressure;
+pub mod questions;
 pub mod recording;
 pub mod sizing;
 pub mod spectra;

@@ -21,7 +21,7 @@ pub use diagnosis::{Hint, KeyFault, SceneFileError, toml_fault};
 pub use rivals::replaces;
 pub use schema::{description, schema};
 pub use spelling::nearest;
-pub use units::{DepthRemark, UnitQuestion, UnitRemark};
+pub use units::{UnitQuestion, UnitRemark};
 
 use brinell::scene::Scene;
 

@@ -103,7 +103,7 @@ impl Command {
             Command::Build(options) => build(project, options),
             Command::Run(options) => {
                 let model = options.model()?;
-                let wanted = options.options(&model.scene.experiment)?;
+                let wanted = options.options(&model.scene)?;
                 let folder = options.output.unwrap_or_else(|| project.results("run"));
                 run::command(project, model, &wanted, &folder)
             }

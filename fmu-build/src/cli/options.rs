@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use brinell::scene::Experiment;
+use brinell::scene::Scene;
 use clap::Args;
 
 use crate::commands::{Asked, Spall, new_scene};
@@ -128,10 +128,11 @@ impl Run {
         Model::read(scene)
     }
 
-    pub(super) fn options(&self, experiment: &Experiment) -> Result<run::Options> {
-        let profile = self.speed_profile.as_deref().map(SpeedProfile::read).transpose()?;
+    pub(super) fn options(&self, scene: &Scene) -> Result<run::Options> {
+        let read = |path| SpeedProfile::read(path, &scene.bearing);
+        let profile = self.speed_profile.as_deref().map(read).transpose()?;
         let stop = self.stop.or(profile.as_ref().map(SpeedProfile::end));
-        let grid = Grid::new(experiment, stop, self.step)?;
+        let grid = Grid::new(&scene.experiment, stop, self.step)?;
         if let (Some(profile), Some(file)) = (&profile, &self.speed_profile) {
             profile.check_covers(grid.end()).with_context(|| file.display().to_string())?;
         }

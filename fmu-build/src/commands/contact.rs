@@ -10,6 +10,7 @@ use brinell::scene::{DefectOn, Scene};
 use brinell_analysis::pressure::{BallOnRaceway, ContactReport, Pressed, Section, Stress, StressAt};
 use clap::{Args, ValueEnum};
 
+use crate::package::model::ask_unit;
 use crate::package::{SceneFiles, read_all};
 use crate::shared::{Drawn, Project, csv, gigapascals, number, whole_file};
 
@@ -56,6 +57,7 @@ const SURFACE_LINES: usize = 64;
 pub fn command(project: &Project, options: &Contact) -> Result<()> {
     let SceneFiles { scene, profiles, .. } = read_all(&options.scene)?;
     let about = || options.scene.display().to_string();
+    ask_unit(&scene.bearing, "shaft.load_n", options.force, "--force");
     let side = if options.on == On::Outer { RacewaySide::Outer } else { RacewaySide::Inner };
     let angle = options.angle.to_radians();
     let mut ball = BallOnRaceway::of(&scene, profiles.iter().map(|profile| profile.text.as_str()), side, angle)

@@ -11,7 +11,7 @@ use crate::shared::{Project, contact_map, whole_file};
 /// The command: `<folder>/<scene>-modes.json` and, if wanted, a figure.
 pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
     let model = Model::read(&options.scene)?;
-    options.check()?;
+    options.check(&model.scene)?;
     let folder = options.drawn.folder(project, "modes");
     let scene = options.load.map_or_else(|| model.scene.clone(), |amount| loaded(&model.scene, amount));
     let map = contact_map::of(&scene, model.profile_texts(), project)?;

@@ -7,10 +7,11 @@ use anyhow::{Context, Result, bail};
 use brinell::geometry::load_rating::load_ratings;
 use brinell::scene::{Bearing, Scene, TiltSupport};
 use brinell::simulation::setup::largest_force;
-use brinell_scene_file::{Designation, designation};
+use brinell_scene_file::{Designation, designation, unit_questions};
 use minijinja::context;
 
 use super::schema;
+use crate::package::model::ask_unit;
 use crate::package::render;
 use crate::shared::{note, whole_file};
 
@@ -83,7 +84,10 @@ pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
     scene.sensors.clear();
     match load {
         Some(load) if !(load.is_finite() && load > 0.0) => bail!("--load {load} N: it must be finite and above 0"),
-        Some(load) => scene.shaft.load = [0.0, -load],
+        Some(load) => {
+            ask_unit(&scene.bearing, "shaft.load_n", load, "--load");
+            scene.shaft.load = [0.0, -load];
+        }
         None => note!(
             "note: {bearing}: a load of {:.0} N is assumed, 5 % of the static rating; --load gives the real one",
             scene.shaft.load[1].abs()
@@ -100,6 +104,9 @@ pub(crate) fn command(name: Option<&str>, bearing: &str, asked: Asked, folder: &
     let text = text(name, bearing, &read, asked)?;
     brinell_scene_file::from_toml(&text)
         .with_context(|| format!("a scene {name} of this bearing and defect is not possible"))?;
+    for question in unit_questions(&text) {
+        note!("note: {name}.toml: {question}");
+    }
     whole_file::write_own(&folder.join(format!("{name}.toml")), &text)?;
     schema::write_beside(folder)
 }

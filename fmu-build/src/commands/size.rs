@@ -12,6 +12,7 @@ use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::recording::{ENDINGS, Recording, Source, Speed, Stated, TextFormat};
 use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
 use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
+use brinell_scene_file::UnitQuestion;
 use clap::Args;
 
 use super::{new_scene, size_report};
@@ -146,6 +147,10 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
         let by = if matches!(speed, ShaftSpeed::Sought(_)) { ", by its own lines" } else { "" };
         note!("{}: {:.3} s at {rate} kHz, shaft {:.4} Hz{by}", r.name(), r.duration(), r.speed());
     }
+    let asked = questions(&recordings, &speeds, &scene.bearing);
+    for asked in &asked {
+        note!("note: {asked}");
+    }
     let maps = |scene: &Scene| contact_map::of(scene, None, project).ok().flatten();
     let bar = talk::bar(recordings.len() as u64, "sizing [{bar:30}] {pos}/{len} recordings, {elapsed}");
     bar.enable_steady_tick(std::time::Duration::from_millis(500));
@@ -157,7 +162,9 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
         }
     });
     bar.finish_and_clear();
-    let report = report?;
+    let mut report = report?;
+    // Whoever reads the answer alone is to know that it may be of another speed.
+    report.reason.extend(asked.iter().map(|asked| format!("; {asked}")));
     eprintln!("{}: {}", found(&report), report.reason);
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
@@ -168,6 +175,21 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
     }
     eprint!("{}", options.drawn.figure(project, "size.py", &stems, &stems)?);
     Ok(())
+}
+
+/// Questions about speeds that were probably given in another unit. A tachometer has none.
+fn questions(recordings: &[Recording], speeds: &[ShaftSpeed], bearing: &Bearing) -> Vec<String> {
+    let mut asked = Vec::new();
+    for (r, speed) in recordings.iter().zip(speeds.iter().cycle()) {
+        let hertz = match speed {
+            ShaftSpeed::Stated(Speed::Tachometer(..)) => continue,
+            ShaftSpeed::Stated(_) => r.speed(),
+            ShaftSpeed::Sought([_, high]) => *high,
+        };
+        let question = UnitQuestion::of(bearing, "shaft.speed_hz", hertz);
+        asked.extend(question.map(|question| format!("{}: shaft {} Hz: {question}", r.name(), digits(hertz))));
+    }
+    asked
 }
 
 fn read(options: &Size, speeds: &[ShaftSpeed], bearing: &Bearing) -> Result<Vec<Recording>> {

@@ -1,15 +1,19 @@
 //! A scene file, read and set up: all that an FMU of it is made of, except the compiled library.
 
+use std::collections::BTreeSet;
+use std::fmt::Display;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use brinell::dynamics::parameters::film;
 use brinell::geometry::kinematics::frequencies;
-use brinell::scene::{Bearing, Defect, DefectShape, Scene};
+use brinell::scene::{Bearing, Defect, DefectShape, Plain, Scene};
 use brinell::simulation::Simulation;
 use brinell::simulation::interface::table::guid;
-use brinell::surface::Surface;
-use brinell_scene_file::DepthRemark;
+use brinell::simulation::setup::{track_width, with_operating_angle};
+use brinell::surface::{Surface, with_roller_profile};
+use brinell_analysis::questions::{BesideTrack, NotPressed, as_measured};
+use brinell_scene_file::UnitQuestion;
 
 use super::sensor_response;
 use crate::package::reference::Reference;
@@ -75,18 +79,38 @@ pub(crate) fn operating_angle(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// Asks about the depths of a profile that were probably meant in another unit. Errors in it are reported where it
-/// is read.
-pub(crate) fn tell_depths(scene: &Scene, name: &str, text: &str) {
-    let names = |defect: &&Defect| matches!(&defect.shape, DefectShape::Profile(named) if named == name);
-    let Some(defect) = scene.defects.iter().find(names) else { return };
-    let deepest = match Surface::load(defect, Some(text), &scene.bearing) {
-        Ok(Surface::Profile(profile)) => profile.points().iter().map(|point| point.1.abs()).fold(0.0, f64::max),
-        Ok(Surface::Topography(surface)) => surface.depths().iter().map(|depth| depth.abs()).fold(0.0, f64::max),
-        Err(_) => return,
-    };
-    if let Some(remark) = DepthRemark::of(&scene.bearing, 1e6 * deepest) {
-        note!("note: {name}: {remark}");
+/// Asks about a measured surface of the scene in the file of this name. Errors in it are reported where it is read.
+pub(crate) fn tell_surface(scene: &Scene, name: &str, text: &str) {
+    let scene = &*with_operating_angle(scene);
+    let names = |defect: &&Defect| matches!(&defect.shape, DefectShape::Profile(named) if named.file == name);
+    let mut told: BTreeSet<String> = BTreeSet::new();
+    for defect in scene.defects.iter().filter(names) {
+        let Ok(surface) = Surface::load(defect, Some(text), &scene.bearing) else { return };
+        let deepest = surface.depths().map(f64::abs).fold(0.0, f64::max);
+        if let Some(question) = UnitQuestion::of(&scene.bearing, "defect.depth_um", 1e6 * deepest) {
+            told.insert(format!("its depths reach {} um: {question}", Plain(question.value)));
+        }
+        let track = track_width(scene, defect.on);
+        let measured = as_measured(&surface, defect.on, &scene.bearing, 0.5 * (track[0] + track[1]));
+        told.extend(measured.iter().map(ToString::to_string));
+        told.extend(BesideTrack::of(scene, defect.on, &surface).map(|beside| beside.to_string()));
+    }
+    for one in told {
+        note!("note: {name}: {one}");
+    }
+}
+
+/// What is to be asked where nothing presses at a defect. Errors are reported where the scene is set up.
+pub(crate) fn not_pressed<'p>(scene: &Scene, profiles: impl IntoIterator<Item = &'p str>) -> Option<NotPressed> {
+    let profiles: Vec<&str> = profiles.into_iter().collect();
+    let scene = with_roller_profile(scene, profiles.iter().copied()).ok()?;
+    NotPressed::of(&scene, &Surface::load_all(&scene, profiles).ok()?)
+}
+
+/// Asks about a value that is given elsewhere than in a scene, as a scene's `key` would be.
+pub(crate) fn ask_unit(bearing: &Bearing, key: &str, value: f64, about: impl Display) {
+    if let Some(question) = UnitQuestion::of(bearing, key, value) {
+        note!("note: {about} = {}: {question}", Plain(value));
     }
 }
 
@@ -110,7 +134,7 @@ pub fn read_all(path: &Path) -> Result<SceneFiles> {
     let profile = |name: &str| anyhow::Ok(Profile { name: name.to_owned(), text: shipped::text_beside(path, name)? });
     let profiles = scene.profile_names().into_iter().map(profile).collect::<Result<Vec<_>>>()?;
     for Profile { name, text } in &profiles {
-        tell_depths(&scene, name, text);
+        tell_surface(&scene, name, text);
     }
     Ok(SceneFiles { text, scene, profiles })
 }
@@ -124,6 +148,9 @@ impl Model {
     /// A scene of this text, which names no other files; `about` names it in messages.
     pub fn of_text(text: String, about: &str) -> Result<Self> {
         let scene = brinell_scene_file::from_toml(&text).with_context(|| about.to_owned())?;
+        for question in brinell_scene_file::unit_questions(&text) {
+            note!("note: {about}: {question}");
+        }
         Self::of_files(SceneFiles { text, scene, profiles: Vec::new() }, about)
     }
 
@@ -131,6 +158,9 @@ impl Model {
         let about = || about.to_owned();
         let SceneFiles { text: scene_text, scene, profiles } = files;
         let texts = || profiles.iter().map(|profile| profile.text.as_str());
+        if let Some(asked) = not_pressed(&scene, texts()) {
+            note!("note: {}: {asked}", about());
+        }
         let map = contact_map::of(&scene, texts(), &Project::find()).with_context(about)?;
         let simulation = Simulation::with_map(scene.clone(), texts(), map.as_deref()).with_context(about)?;
         Ok(Self { scene, scene_text, profiles, map, simulation, reference: None })

@@ -5,7 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use brinell::scene::Bearing;
 
+use crate::package::model::ask_unit;
 use crate::shared::csv;
 
 /// Largest speed (Hz), as that of a scene.
@@ -19,14 +21,17 @@ pub struct SpeedProfile {
 }
 
 impl SpeedProfile {
-    /// Reads a file.
+    /// Reads a file; a speed that this bearing hardly has is asked about.
     ///
     /// # Errors
     /// What is no such profile, with the line, the value and what it must be.
-    pub fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path, bearing: &Bearing) -> Result<Self> {
         let about = || path.display().to_string();
         let text = fs::read_to_string(path).with_context(about)?;
-        Self::parse(&text).with_context(about)
+        let profile = Self::parse(&text).with_context(about)?;
+        let fastest = profile.points.iter().map(|[_, speed]| *speed).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        ask_unit(bearing, "shaft.speed_hz", fastest.unwrap_or(0.0), format_args!("{}: speed_hz", path.display()));
+        Ok(profile)
     }
 
     fn parse(text: &str) -> Result<Self> {

@@ -1,43 +1,100 @@
 //! What is wrong with a sweep beside its scene: every value is tried in the scene before anything runs.
 //!
 //! First one run whose values are each the first on the grid and the lower end of its range, then, key by key, the
-//! others. What only some runs with random values meet shows when they are run, in their rows.
+//! others. What only some runs with random values meet shows when they are run, in their rows. What a scene is asked
+//! about, its values are asked about here: each key of the sweep once, and once where nothing presses at the defect.
 
-use brinell_scene_file::SceneFileError;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::Result;
+use brinell::scene::{Plain, Scene};
+use brinell_scene_file::{SceneFileError, UnitRemark};
 use toml::Value;
 
 use super::design::{Point, Run, drawn};
 use super::faults::Fault;
 use super::file::{Entry, Sweep, number};
 use super::scenes::Base;
+use crate::package::model::not_pressed;
+use crate::shared::{note, shipped};
 
 /// Values of one key that are tried at most.
 const TRIED: usize = 1000;
 
-/// What is wrong with the scenes of a sweep, each fault with the line of its key.
-pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+/// What is wrong with the scenes of a sweep, each fault with the line of its key, and what there is to ask.
+pub(super) fn faults(base: &Base, sweep: &Sweep, is_whole: &dyn Fn(&str) -> bool) -> (Vec<Fault>, Questions) {
     let mut faults: Vec<Fault> = Vec::new();
     let mut tell = |fault: Fault| {
         if !faults.iter().any(|known| known.message == fault.message) {
             faults.push(fault);
         }
     };
+    let mut questions = Questions::default();
     for point in 0..sweep.kinds.len().max(1) as u64 {
         let first = first(sweep, point, is_whole);
-        let wrong = messages(base, sweep, &first);
+        let wrong = questions.ask(base, sweep, &first);
         wrong.iter().for_each(|message| tell(about(sweep, message, 0)));
         for (position, (key, line, values)) in others(sweep, is_whole).into_iter().enumerate() {
             for value in values {
                 let mut run = first.clone();
                 run.values[position] = (key.to_owned(), value);
-                let all = messages(base, sweep, &run);
+                let all = questions.ask(base, sweep, &run);
                 all.iter()
                     .filter(|message| !wrong.contains(message))
                     .for_each(|message| tell(about(sweep, message, line)));
             }
         }
     }
-    faults
+    (faults, questions)
+}
+
+/// What there is to ask about the runs of a sweep.
+#[derive(Debug, Default)]
+pub(super) struct Questions {
+    /// Of each key the first, with its line.
+    units: BTreeMap<(usize, String), String>,
+    not_pressed: Option<String>,
+}
+
+impl Questions {
+    /// What is wrong with the scene of a run, or else what there is to ask about it is kept.
+    fn ask(&mut self, base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
+        let (text, scene) = match read(base, sweep, run) {
+            Ok(read) => read,
+            Err(messages) => return messages,
+        };
+        for UnitRemark { question, .. } in brinell_scene_file::unit_questions(&text) {
+            // Of keys that are the scene's own the scene is asked.
+            if let Some((key, line)) = sweep.lines().find(|(key, _)| question.key == *key) {
+                let asked = || format!("{key} = {}: {question}", Plain(question.value));
+                self.units.entry((line, key.to_owned())).or_insert_with(asked);
+            }
+        }
+        if self.not_pressed.is_none() && run.profile.is_none() {
+            let texts: Result<Vec<_>> =
+                scene.profile_names().iter().map(|name| shipped::text_beside(&base.path, name)).collect();
+            let texts = texts.unwrap_or_default();
+            let asked = not_pressed(&scene, texts.iter().map(String::as_str));
+            self.not_pressed = asked.map(|asked| format!("runs such as {}: {asked}", shown(run)));
+        }
+        Vec::new()
+    }
+
+    /// Asks.
+    pub(super) fn tell(&self, file: &Path) {
+        let units = self.units.iter().map(|((line, _), asked)| format!("line {line}: {asked}"));
+        for asked in units.chain(self.not_pressed.clone()) {
+            note!("note: {}: {asked}", file.display());
+        }
+    }
+}
+
+/// The values of a run in few words.
+fn shown(run: &Run) -> String {
+    let kind = run.kind.map(|kind| format!("kind {}", kind.word()));
+    let values = run.values.iter().map(|(key, value)| format!("{key} = {value}"));
+    kind.into_iter().chain(values).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether a key takes whole numbers only: what the scene says of one that is none.
@@ -47,9 +104,8 @@ pub(super) fn takes_whole_numbers(base: &Base, sweep: &Sweep, key: &str) -> bool
         let Some((_, value)) = run.values.iter_mut().find(|(known, _)| known == key) else { return false };
         let Some(low) = number(value) else { return false };
         *value = Value::Float(low.floor() + 0.5);
-        messages(base, sweep, &run)
-            .iter()
-            .any(|message| message.starts_with(&format!("{key} is")) && message.contains("a whole number"))
+        let messages = read(base, sweep, &run).err().unwrap_or_default();
+        messages.iter().any(|message| message.starts_with(&format!("{key} is")) && message.contains("a whole number"))
     })
 }
 
@@ -73,26 +129,20 @@ fn others<'s>(sweep: &'s Sweep, is_whole: &dyn Fn(&str) -> bool) -> Vec<(&'s str
     grid.chain(random).collect()
 }
 
-/// What is wrong with the scene of a run, without lines of a file that nobody sees.
-fn messages(base: &Base, sweep: &Sweep, run: &Run) -> Vec<String> {
-    let table = match base.changed(sweep, run) {
-        Ok(table) => table,
-        Err(message) => return vec![message],
-    };
-    let text = match toml::to_string(&table) {
-        Ok(text) => text,
-        Err(error) => return vec![error.to_string()],
-    };
+/// The scene of a run and its text; or what is wrong with it, without lines of a file that nobody sees.
+fn read(base: &Base, sweep: &Sweep, run: &Run) -> Result<(String, Scene), Vec<String>> {
+    let table = base.changed(sweep, run).map_err(|message| vec![message])?;
+    let text = toml::to_string(&table).map_err(|error| vec![error.to_string()])?;
     match brinell_scene_file::from_toml(&text) {
-        Ok(_) => Vec::new(),
-        Err(SceneFileError::Keys(faults)) => faults
+        Ok(scene) => Ok((text, scene)),
+        Err(SceneFileError::Keys(faults)) => Err(faults
             .iter()
             .map(|fault| {
                 let message = fault.to_string();
                 message.strip_prefix(&format!("line {}: ", fault.line())).unwrap_or(&message).to_owned()
             })
-            .collect(),
-        Err(error) => vec![error.to_string()],
+            .collect()),
+        Err(error) => Err(vec![error.to_string()]),
     }
 }
 

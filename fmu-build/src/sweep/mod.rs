@@ -250,7 +250,9 @@ impl Planned {
             Some(Ok(base)) => {
                 let keys = sweep.lines().map(|(key, _)| key);
                 whole.extend(keys.filter(|key| check::takes_whole_numbers(&base, &sweep, key)).map(str::to_owned));
-                faults.extend(check::faults(&base, &sweep, &|key| whole.contains(key)));
+                let (wrong, questions) = check::faults(&base, &sweep, &|key| whole.contains(key));
+                faults.extend(wrong);
+                questions.tell(file);
                 Some(base)
             }
         };
@@ -262,7 +264,7 @@ impl Planned {
         let beside = |name: &String| file.parent().unwrap_or(Path::new("")).join(name);
         let speed = |name: &String| {
             let path = beside(name);
-            let profile = SpeedProfile::read(&path)?;
+            let profile = SpeedProfile::read(&path, &base.scene.bearing)?;
             profile.check_covers(grid.end()).with_context(|| path.display().to_string())?;
             anyhow::Ok(profile)
         };

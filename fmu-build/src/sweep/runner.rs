@@ -23,7 +23,7 @@ use super::rows::statistics::{OneElement, Passage, Statistics, passages};
 use super::rows::{Cell, Column, Kind, Row};
 use super::scenes::{Base, is_of_defect, run_name};
 use crate::interrupt::Interrupted;
-use crate::package::model::tell_depths;
+use crate::package::model::tell_surface;
 use crate::run::columns::Columns;
 use crate::run::noise_spectrum::NoiseSpectrum;
 use crate::run::run_loop::{Done, RunLoop};
@@ -69,7 +69,7 @@ impl SweepRunner<'_> {
             return Ok(Arc::clone(text));
         }
         let text: Arc<str> = shipped::text_beside(&self.base.path, name)?.into();
-        tell_depths(scene, name, &text);
+        tell_surface(scene, name, &text);
         texts.insert(name.to_owned(), Arc::clone(&text));
         Ok(text)
     }

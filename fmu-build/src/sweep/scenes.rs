@@ -59,9 +59,12 @@ impl Base {
         let healthy = run.kind == Some(Kind::Healthy);
         let given: Vec<(&str, &Value)> = set.chain(of_run).filter(|(key, _)| !(healthy && is_of_defect(key))).collect();
         for (key, _) in &given {
-            let (inner, last) = inner(&mut table, key)?;
-            let path = key.strip_suffix(last).unwrap_or_default();
-            inner.retain(|other, _| !replaces(key, &format!("{path}{other}")));
+            // A key of [defect.profile] says that there is a profile.
+            for key in [*key, key.rsplit_once('.').map_or(key, |(table, _)| table)] {
+                let (inner, last) = inner(&mut table, key)?;
+                let path = key.strip_suffix(last).unwrap_or_default();
+                inner.retain(|other, _| !replaces(key, &format!("{path}{other}")));
+            }
         }
         for (key, value) in given {
             let (inner, last) = inner(&mut table, key)?;
@@ -149,6 +152,11 @@ fn inner<'t, 'k>(table: &'t mut Table, key: &'k str) -> Result<(&'t mut Table, &
     let mut at = table;
     for part in path.split('.') {
         let next = at.entry(part).or_insert_with(|| Value::Table(Table::new()));
+        if let (Value::String(_), "profile") = (&*next, part) {
+            // The name of the file alone.
+            let file = std::mem::replace(next, Value::Table(Table::new()));
+            next.as_table_mut().map(|table| table.insert("file".to_owned(), file));
+        }
         at = match next {
             Value::Table(inner) => inner,
             Value::Array(several) => match &mut several[..] {

@@ -23,7 +23,7 @@ impl Defect {
             DefectShape::Spall { length, depth, edge_slope } => {
                 self.check_spall([*length, *depth, *edge_slope], bearing)
             }
-            DefectShape::Profile(name) => self.check_profile(name),
+            DefectShape::Profile(measured) => self.check_profile(&measured.file),
         });
         faults.into_result()
     }

@@ -46,8 +46,46 @@ pub enum DefectShape {
         /// Steepness of the flanks (rad); π/2 for vertical edges.
         edge_slope: f64,
     },
-    /// A measured profile: file name beside the scene file.
-    Profile(String),
+    /// A measured surface.
+    Profile(Measured),
+}
+
+/// A measured surface: its file, and what is done to the depths in it, in this order.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Measured {
+    /// Its name, beside the scene file.
+    pub file: String,
+    /// Form that is taken off.
+    pub form: Option<MeasuredForm>,
+    /// What is put at depth 0.
+    pub level: Option<MeasuredLevel>,
+    /// Whether the file has heights, of which depths are the opposite.
+    pub invert: bool,
+}
+
+/// Form of a body that its measured surface still has.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MeasuredForm {
+    /// The circle through both ends of each trace, a tenth of its length each.
+    Circle,
+}
+
+/// What of a measured surface is smooth raceway, at depth 0.
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MeasuredLevel {
+    /// Both ends of each trace, a tenth of its length each: the straight line through them.
+    Ends,
+}
+
+impl<F: Into<String>> From<F> for Measured {
+    /// The file as it is.
+    fn from(file: F) -> Self {
+        Self { file: file.into(), ..Self::default() }
+    }
 }
 
 /// What a size of a defect must stay below.

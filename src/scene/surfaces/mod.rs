@@ -3,5 +3,5 @@
 mod defect;
 mod waviness;
 
-pub use defect::{Defect, DefectLimit, DefectOn, DefectShape};
+pub use defect::{Defect, DefectLimit, DefectOn, DefectShape, Measured, MeasuredForm, MeasuredLevel};
 pub use waviness::{Waviness, WavyBody};

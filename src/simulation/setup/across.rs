@@ -11,7 +11,7 @@ use super::tracks::{angle_of, element_on_track};
 use crate::contact::rolling::RacewaySide;
 use crate::scene::{DefectOn, DegreesOfFreedom, Scene};
 use crate::simulation::SimulationError;
-use crate::surface::{Surface, Topography};
+use crate::surface::Surface;
 
 /// Slices on either side of the track.
 const BESIDE: usize = 3;
@@ -37,19 +37,19 @@ impl Across {
     /// element's, and each one in the plane.
     ///
     /// # Errors
-    /// A topography that does not reach the track.
+    /// A topography that does not reach the track, wherever it is met.
     pub(super) fn of(
         scene: &Scene,
         placed: &PlacedSurface,
         side: RacewaySide,
     ) -> Result<Option<Self>, SimulationError> {
-        let (bearing, surface) = (&scene.bearing, &*placed.surface);
-        let Surface::Topography(topography) = surface else { return Ok(None) };
-        if bearing.degrees_of_freedom == DegreesOfFreedom::Two || matches!(placed.on, DefectOn::Element { .. }) {
+        check_reach(scene, placed.on, &placed.surface)?;
+        let Surface::Topography(topography) = &*placed.surface else { return Ok(None) };
+        let in_plane = scene.bearing.degrees_of_freedom == DegreesOfFreedom::Two;
+        if in_plane || matches!(placed.on, DefectOn::Element { .. }) {
             return Ok(None);
         }
         let track = track_across(scene, placed.on);
-        check_reach(topography, track, side)?;
         let (element, specification) = (element_on_track(&prepared(scene), side), map_specification(scene, side));
         let [_, half] = element.contact_half_axes(specification.largest_approach);
         // Whole rows of the grids, so that all slices are solved on the same cells.
@@ -75,6 +75,8 @@ pub fn track_across(scene: &Scene, on: DefectOn) -> f64 {
     let angle = angle_of(&scene.bearing) * pushed_way(scene);
     let [inner, outer] = scene.bearing.groove_radii();
     match on {
+        // Radii of rollers' raceways across are infinite.
+        _ if angle == 0.0 => 0.0,
         DefectOn::Outer => outer * angle,
         DefectOn::Inner => -(inner * angle),
         DefectOn::Element { .. } => 0.0,
@@ -93,13 +95,28 @@ fn pushed_way(scene: &Scene) -> f64 {
     if push < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// Refuses a topography whose rows end before the track.
-fn check_reach(topography: &Topography, track: f64, side: RacewaySide) -> Result<(), SimulationError> {
-    let axials = topography.axials();
-    let [first, last] = [axials[0], axials[axials.len() - 1]];
-    if (first..=last).contains(&track) {
+/// First and last place (m) across a body on which elements run: a ball's track, or the length of a roller.
+pub fn track_width(scene: &Scene, on: DefectOn) -> [f64; 2] {
+    let half = scene.bearing.roller().map_or(0.0, |roller| 0.5 * roller.length);
+    let track = track_across(scene, on);
+    [track - half, track + half]
+}
+
+/// Refuses a topography beside which elements run: it would be a smooth raceway.
+///
+/// # Errors
+/// Rows of which none is on the track.
+pub fn check_reach(scene: &Scene, on: DefectOn, surface: &Surface) -> Result<(), SimulationError> {
+    let Surface::Topography(topography) = surface else { return Ok(()) };
+    let (axials, track) = (topography.axials(), track_width(scene, on));
+    let rows = [axials[0], axials[axials.len() - 1]];
+    if rows[0] <= track[1] && track[0] <= rows[1] {
         return Ok(());
     }
-    let ring = if side == RacewaySide::Outer { "outer" } else { "inner" };
-    Err(SimulationError::OffTopography { ring, track_mm: track * 1e3, first_mm: first * 1e3, last_mm: last * 1e3 })
+    let body = match on {
+        DefectOn::Outer => "outer ring",
+        DefectOn::Inner => "inner ring",
+        DefectOn::Element { .. } => "element",
+    };
+    Err(SimulationError::OffTopography { body, track_mm: track.map(|at| at * 1e3), rows_mm: rows.map(|at| at * 1e3) })
 }

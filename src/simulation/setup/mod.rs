@@ -9,7 +9,7 @@ mod specification;
 mod tracks;
 mod waves;
 
-pub use across::track_across;
+pub use across::{check_reach, track_across, track_width};
 pub use arrangement::largest_force;
 pub use maps::{NeededMap, build_map, map_fingerprint, needed_maps, stored_map};
 pub use model::build_model;

@@ -66,7 +66,7 @@ fn defects_close_together_are_one_profile() {
             text += &format!("{:.9},{}\n", (edge + shift) * 1e3, depth * 1e6);
         }
     }
-    let traced = bearing(vec![Defect::outer(-FRAC_PI_2, DefectShape::Profile("ridge.csv".to_owned()))]);
+    let traced = bearing(vec![Defect::outer(-FRAC_PI_2, DefectShape::Profile("ridge.csv".into()))]);
     let mut one = Named(Simulation::new(traced, Some(text.as_str())).unwrap());
     one.0.initialize(0.0).unwrap();
     let [a, b] = spalls;
@@ -173,7 +173,7 @@ fn overlaps_and_topographies_too_close_are_refused_with_their_numbers() {
     assert!(refusal(vec![on(1), on(1)], ContactLaw::Hertz, None).unwrap_err().contains("numbers 1 and 2"));
 
     let text = "arc_mm,axial_mm,depth_um\n-0.5,-1,10\n-0.5,1,10\n0.5,-1,20\n0.5,1,30\n";
-    let topography = DefectShape::Profile("pit.csv".to_owned());
+    let topography = DefectShape::Profile("pit.csv".into());
     let message = refusal(beside(0.3e-3, topography.clone()), ContactLaw::Map, Some(text)).unwrap_err();
     assert!(message.contains("number 2 is a topography and number 1"), "{message}");
     assert_eq!(refusal(beside(12e-3, topography), ContactLaw::Map, Some(text)), Ok(()));

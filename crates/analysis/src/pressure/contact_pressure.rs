@@ -17,7 +17,8 @@ use brinell::contact::rolling::RacewaySide;
 use brinell::geometry::hertz_constant::{approach_under, effective_modulus, point_contact};
 use brinell::numerics::wrap;
 use brinell::scene::{DefectOn, Scene};
-use brinell::simulation::setup::{track_across, with_operating_angle};
+use brinell::simulation::SimulationError;
+use brinell::simulation::setup::{check_reach, track_across, with_operating_angle};
 use brinell::surface::{Surface, SurfaceError};
 use std::f64::consts::PI;
 
@@ -53,6 +54,9 @@ pub enum PressureError {
     /// The defect's profile cannot be used.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// A topography beside which the ball runs.
+    #[error(transparent)]
+    SetUp(#[from] SimulationError),
     /// The contact cannot be solved.
     #[error(transparent)]
     Contact(#[from] ContactError),
@@ -142,9 +146,13 @@ impl BallOnRaceway {
             return Err(PressureError::OutOfRange { quantity, value: angle.to_degrees(), unit: "degrees", limit });
         }
         let on = if side == RacewaySide::Outer { DefectOn::Outer } else { DefectOn::Inner };
-        let track = track_across(&with_operating_angle(scene), on);
-        let surfaces = Surface::load_all(scene, profiles)?.into_iter().map(|surface| surface.seen_from(track));
-        let there: Vec<_> = scene.defects.iter().zip(surfaces).filter(|(defect, _)| defect.on == on).collect();
+        let scene = &*with_operating_angle(scene);
+        let track = track_across(scene, on);
+        let surfaces = Surface::load_all(scene, profiles)?;
+        let there = scene.defects.iter().zip(surfaces).filter(|(defect, _)| defect.on == on);
+        let there: Vec<_> = there
+            .map(|(defect, surface)| check_reach(scene, on, &surface).map(|()| (defect, surface.seen_from(track))))
+            .collect::<Result<_, _>>()?;
         let first = there.first().map_or(0.0, |(defect, _)| defect.angle);
         let arc = |at: f64| wrap(first + angle - at) * side.radius(bearing);
         Ok(Self {

@@ -7,13 +7,14 @@ use serde_json::Value;
 use std::sync::LazyLock;
 
 /// The names, in the order in which a key's table is looked for; the empty one is the file itself.
-const NAMES: [&str; 16] = [
+const NAMES: [&str; 17] = [
     "",
     "bearing",
     "contact",
     "film",
     "cage",
     "defect",
+    "defect.profile",
     "waviness",
     "shaft",
     "housing",

@@ -83,7 +83,7 @@ pub(super) fn named(message: &str, number: [usize; 2]) -> Vec<(Location, &'stati
         };
         let number = match known.name {
             "sensor.mode" => number,
-            name if SEVERAL.contains(&name) => [number[0], 0],
+            name if SEVERAL.iter().any(|of| name.split('.').next() == Some(of)) => [number[0], 0],
             _ => [0; 2],
         };
         let one = (Location { table: known.name, number }, key);

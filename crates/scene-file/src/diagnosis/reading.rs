@@ -139,7 +139,7 @@ impl<'a, 'f> Reading<'a, 'f> {
             let (_, value) = self.find(location, key)?;
             self.question(location.table, key, value)
         };
-        keys.filter_map(question).next().map_or_else(String::new, |question| format!("; {question}"))
+        keys.filter_map(question).next().map_or_else(String::new, |question| format!("; {}", question.short()))
     }
 
     fn question(&self, table: &str, key: &str, value: &DeValue<'_>) -> Option<UnitQuestion> {

@@ -21,7 +21,7 @@ enum StandIn {
 use StandIn::{Bearing, Value};
 
 /// Table, key, and what stands for it where no key is there that excludes it.
-const STAND_INS: [(&str, &str, StandIn); 21] = [
+const STAND_INS: [(&str, &str, StandIn); 22] = [
     ("", "name", Value("'scene'")),
     ("", "bearing", Value("{}")),
     ("", "shaft", Value("{}")),
@@ -33,6 +33,7 @@ const STAND_INS: [(&str, &str, StandIn); 21] = [
     ("defect", "angle_deg", Value("0.0")),
     ("defect", "length_mm", Value("1.0")),
     ("defect", "depth_um", Value("1.0")),
+    ("defect.profile", "file", Value("'profile.csv'")),
     ("waviness", "order", Value("2")),
     ("waviness", "amplitude_um", Value("0.0")),
     ("waviness", "angle_deg", Value("0.0")),

@@ -27,6 +27,8 @@ pub(super) enum Kind {
     Table,
     /// One table, or several of the name.
     OneOrMore,
+    /// A text, or a table in its place.
+    TextOrTable,
 }
 
 impl Kind {
@@ -38,6 +40,7 @@ impl Kind {
         match part["anyOf"].as_array().map(Vec::as_slice) {
             // A key that may be left out.
             Some([one, none]) if none["type"] == "null" => return Self::of(schema, one),
+            Some([_, text]) if text["type"] == "string" => return Some(Self::TextOrTable),
             Some(_) => return Some(Self::OneOrMore),
             None => {}
         }
@@ -70,7 +73,7 @@ impl Kind {
             Self::Flag => "answers",
             Self::Text | Self::Word(_) => "texts in quotes",
             Self::Short(..) | Self::List(_) => "lists",
-            Self::Table | Self::OneOrMore => "tables",
+            Self::Table | Self::OneOrMore | Self::TextOrTable => "tables",
         }
     }
 }
@@ -116,6 +119,7 @@ impl fmt::Display for Kind {
             Self::List(kind) => write!(f, "a list of {}", kind.several()),
             Self::Table => f.write_str("one table"),
             Self::OneOrMore => f.write_str("a table, or several"),
+            Self::TextOrTable => f.write_str("a text in quotes, or a table"),
         }
     }
 }

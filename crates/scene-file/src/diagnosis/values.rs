@@ -60,6 +60,7 @@ fn is_of(kind: &Kind, value: &DeValue<'_>) -> bool {
         Kind::List(kind) => all(kind),
         Kind::Table => value.is_table(),
         Kind::OneOrMore => value.is_table() || all(&Kind::Table),
+        Kind::TextOrTable => value.is_str() || value.is_table(),
     }
 }
 

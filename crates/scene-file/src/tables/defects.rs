@@ -1,6 +1,7 @@
 //! The table `[defect]` of the scene file, or several of them as `[[defect]]`.
 
 use super::faults::{Faults, TableFault, only_one};
+use super::profile::ProfileTable;
 use brinell::scene::{Bearing, Defect, DefectError, DefectOn, DefectShape, SceneError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,8 +32,8 @@ pub(crate) struct DefectTable {
     /// Slope of the edges.
     #[schemars(extend("default" = EDGE_SLOPE_DEG))]
     edge_slope_deg: Option<f64>,
-    /// File of a measured trace or topography, instead of length and depth.
-    profile: Option<String>,
+    /// File of a measured trace or topography, instead of length and depth; as a table with what is done to it.
+    profile: Option<ProfileTable>,
 }
 
 /// The body that has a defect or waves.
@@ -83,7 +84,7 @@ impl DefectTable {
             ("defect.edge_slope_deg", self.edge_slope_deg.is_some()),
         ])?;
         let shape = match self.profile {
-            Some(name) => DefectShape::Profile(name),
+            Some(table) => DefectShape::Profile(table.into_measured()),
             None => DefectShape::Spall {
                 length: spall_length(self.length_deg, self.length_mm, on.radius(bearing))?,
                 depth: self

@@ -7,6 +7,7 @@ mod diameters;
 mod faults;
 mod film;
 mod one_or_more;
+mod profile;
 mod rings;
 mod short_lists;
 mod waviness;

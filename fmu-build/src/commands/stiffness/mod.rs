@@ -15,6 +15,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::package::Model;
+use crate::package::model::ask_unit;
 use crate::shared::{Drawn, Project, contact_map, csv, number, whole, whole_file};
 
 /// Options of `stiffness` and `modes`, which sweep the cage angle.
@@ -53,11 +54,13 @@ impl OverCageAngle {
         self.tell(format_args!("{}\n", path.display()));
     }
 
-    /// Refuses a load that is none.
-    pub(super) fn check(&self) -> Result<()> {
-        if let Some(amount) = self.load.filter(|amount| !(amount.is_finite() && *amount > 0.0)) {
+    /// Refuses a load that is none, and asks about one in another unit.
+    pub(super) fn check(&self, scene: &Scene) -> Result<()> {
+        let Some(amount) = self.load else { return Ok(()) };
+        if !(amount.is_finite() && amount > 0.0) {
             bail!("load {amount} N: it must be finite and above 0");
         }
+        ask_unit(&scene.bearing, "shaft.load_n", amount, "--load");
         Ok(())
     }
 }
@@ -73,7 +76,7 @@ const VARIATIONS: usize = 21;
 /// The command: `<folder>/<scene>-stiffness.csv`, with a defect `<scene>-critical-load.csv`, and, if wanted, a figure.
 pub fn command(project: &Project, options: &OverCageAngle) -> Result<()> {
     let model = Model::read(&options.scene)?;
-    options.check()?;
+    options.check(&model.scene)?;
     let folder = options.drawn.folder(project, "stiffness");
     if model.scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two {
         return in_space::command(project, &model, options, &folder);

@@ -157,7 +157,7 @@ fn defect_row(defect: &Defect) -> (&'static str, String) {
                 digits(depth * 1e6),
                 degrees(edge_slope)
             ),
-            DefectShape::Profile(ref file) => format!("<code>resources/{}</code>", escape(file)),
+            DefectShape::Profile(ref measured) => format!("<code>resources/{}</code>", escape(&measured.file)),
         },
     );
     let what = if matches!(defect.shape, DefectShape::Profile(_)) { "profile" } else { "spall" };

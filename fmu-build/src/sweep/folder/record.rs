@@ -47,9 +47,14 @@ impl Record {
             files.push((name.clone(), fs::read_to_string(&path).with_context(|| path.display().to_string())?));
         }
         let of_grid = sweep.grid.iter().flat_map(|entry| &entry.of).chain(sweep.set.iter().map(|entry| &entry.of));
-        let named = base.scene.profile_names().into_iter().chain(of_grid.filter_map(Value::as_str));
+        let file = |value: &'_ Value| value.get("file").and_then(Value::as_str).map(str::to_owned);
+        let of_grid = of_grid.filter_map(|value| value.as_str().map(str::to_owned).or_else(|| file(value)));
+        let named = base.scene.profile_names().into_iter().map(str::to_owned).chain(of_grid);
         // Most words of a grid are no files.
-        files.extend(named.filter_map(|name| Some((name.to_owned(), shipped::text_beside(&base.path, name).ok()?))));
+        files.extend(named.filter_map(|name| {
+            let text = shipped::text_beside(&base.path, &name).ok()?;
+            Some((name, text))
+        }));
         lines.extend(files.iter().map(|(name, text)| format!("file {name:?} = {:016x}", checksum(text.as_bytes()))));
         Ok(Self(lines))
     }

@@ -42,6 +42,7 @@ const EACH_TAKES_ANOTHERS_PLACE: [(&str, Ways); 6] = [
         DEFECT,
         &[
             &[("defect.profile", "\"pit.csv\"")],
+            &[("defect.profile.file", "\"pit.csv\""), ("defect.profile.invert", "true")],
             &[("defect.length_deg", "2.0"), ("defect.depth_um", "50.0"), ("defect.edge_slope_deg", "45.0")],
             &[("defect.length_mm", "1.0"), ("defect.depth_um", "40.0")],
         ],
