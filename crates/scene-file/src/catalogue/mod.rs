@@ -1,6 +1,7 @@
 //! Common deep groove and angular contact ball bearings and cylindrical roller bearings by their catalogue's name.
 
 mod clearance;
+mod designation;
 mod estimates;
 mod in_scene;
 mod name;
@@ -8,8 +9,9 @@ mod not_found;
 mod suffixes;
 
 pub use clearance::{ClearanceClass, ClearanceRange};
+pub use designation::Designation;
 pub use in_scene::name_remark;
-pub use name::{Designation, designation};
+pub use name::designation;
 pub use not_found::NotInCatalogue;
 
 use estimates::{angular_contact_bearings, ball_bearings, inserted, roller_bearings};
