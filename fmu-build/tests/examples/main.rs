@@ -92,13 +92,13 @@ fn has_figure(stem: PathBuf) {
     }
 }
 
-/// So many SSP files with two FMUs each.
-fn hold_two_fmus<'a>(systems: impl Iterator<Item = &'a str>, count: usize) {
+/// SSP files with so many FMUs each.
+fn hold_fmus<'a>(systems: impl Iterator<Item = &'a str>, counts: &[usize]) {
     let fmus = systems.map(|system| {
         let archive = zip::ZipArchive::new(fs::File::open(system).unwrap()).unwrap();
         archive.file_names().filter(|name| name.as_ref().unwrap().ends_with(".fmu")).count()
     });
-    assert_eq!(fmus.collect::<Vec<_>>(), vec![2; count]);
+    assert_eq!(fmus.collect::<Vec<_>>(), counts);
 }
 
 fn page(name: &str) -> String {
@@ -212,7 +212,7 @@ fn two_bearings_carry_a_rigid_rotor() {
 #[ignore = "half a minute; at night"]
 fn a_rotor_run_up_moves_alike_by_both_hosts_and_nearly_as_in_linear_bearings() {
     let folder = common::folder("example-run-up");
-    hold_two_fmus(run(&format!("{RUN_UP_SYSTEM} --ssp 2.0"), &folder).lines(), 1);
+    hold_fmus(run(&format!("{RUN_UP_SYSTEM} --ssp 2.0"), &folder).lines(), &[2]);
     common::validate([folder.join("disk.fmu")]);
     let said = last(&run(RUN_UP, &folder));
     has_figure(folder.join("run_up"));
@@ -237,7 +237,8 @@ fn a_rotor_run_up_moves_alike_by_both_hosts_and_nearly_as_in_linear_bearings() {
 fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
     let folder = common::folder("example-pair");
     let said = run(PAIR, &folder);
-    hold_two_fmus(said.lines().filter(|line| line.ends_with(".ssp")), 3);
+    // Both bearings, each with its own parameters, and the shaft.
+    hold_fmus(said.lines().filter(|line| line.ends_with(".ssp")), &[3; 3]);
     common::validate([folder.join("shaft.fmu")]);
     // Two bearings of 25 degrees closed by 5 µm each hold 9.55e7 N/m at rest; at 50 Hz balls press the inner
     // ring a little less.
@@ -268,7 +269,7 @@ fn a_shaft_in_a_pair_of_bearings_is_as_exact_by_each_host_as_its_page_says() {
 fn a_system_of_bearing_and_rotor_is_as_exact_by_each_algorithm_as_its_page_says() {
     let folder = common::folder("example-system");
     let said = run(SYSTEMS, &folder);
-    hold_two_fmus(said.lines(), 6);
+    hold_fmus(said.lines(), &[2; 6]);
     // The rotor is an FMU that any importer can take.
     common::validate([folder.join("rotor.fmu")]);
 
