@@ -6,9 +6,9 @@
 //! ```
 //! with δ the contact's own approach and P(x) the crown's depth at the lamina's middle (ISO/TS 16281, equations 38 to
 //! 46). The standard's K_L is that of both contacts of a roller in series; an element with mass between them needs each
-//! for itself. K_L comes from Palmgren's measurements on steel on steel; with elements of another material it grows as E*
-//! does, since his approach is 0.39 (4(1−ν₁²)/E₁ + 4(1−ν₂²)/E₂)^0.9 Q^0.9/L^0.8 (mm, N). Neither raceway nor clearance
-//! enters: a half-space gives contacts inside and outside 3 % apart and 6 % off this law between 50 and
+//! for itself. K_L comes from Palmgren's measurements on steel on steel; with elements of another material it grows as
+//! E* does, since his approach is 0.39 (4(1−ν₁²)/E₁ + 4(1−ν₂²)/E₂)^0.9 Q^0.9/L^0.8 (mm, N). Neither raceway nor
+//! clearance enters: a half-space gives contacts inside and outside 3 % apart and 6 % off this law between 50 and
 //! 1500 N on a roller of 7.5 × 9 mm. Rings do not tilt, so that all laminae see the same δ.
 
 use super::hertz_constant::share_of_ring;

@@ -8,14 +8,15 @@
 //!          P  = X F_r + Y F_a,   F_r where F_a/F_r ≤ e
 //! ```
 //! (ISO 281:2007, 5.1, 7.1 and table 3; ISO 76:2006, 5.1 and 7.1). f_c and f₀ are worked out and agree with the
-//! standards' tables to their last digit. f_c of balls is Lundberg and Palmgren's with the constants of
-//! ISO/TR 1281-1, reduced by λ = 0.95; f₀ is the load of the most loaded ball, a fifth, at 4200 MPa between steel of 207 GPa (ISO/TR
+//! standards' tables to their last digit. f_c of balls is Lundberg and Palmgren's with the constants of ISO/TR 1281-1,
+//! reduced by λ = 0.95; f₀ is the load of the most loaded ball, a fifth, at 4200 MPa between steel of 207 GPa (ISO/TR
 //! 10657). Grooves closer than 0.52 of a ball, and outside 0.53 under C₀, gain nothing in the standards.
 //!
 //! Makers' catalogues have these values for C₀, of bearings whose inside is known to 2 %. Their C is higher for better
 //! steel and finish: SKF's (catalogue 17000/1 EN, 2018) by 5 % of deep groove bearings and by 13 to 16 % of cylindrical
 //! roller bearings but NU 202, which is not of that class.
 
+use super::STRIBECK;
 use super::hertz_constant::squared_eccentricity;
 use crate::numerics::elementary::elliptic;
 use crate::scene::{Bearing, RollingElement};
@@ -26,10 +27,8 @@ use std::f64::consts::TAU;
 const STATIC_PRESSURE: f64 = 4200e6;
 /// E* (Pa) of the standard's steel.
 const STEEL: f64 = 207e9 / (2.0 * (1.0 - 0.3 * 0.3));
-/// Share of the load on the most loaded ball, over an even one.
-const MOST_LOADED: f64 = 5.0;
-/// b_m times the constant of f_c and its reduction: of balls 0.41 · 98.0665 λ with λ = 0.95, of rollers 207.9 λν with λν
-/// = 0.83; N and mm.
+/// b_m times the constant of f_c and its reduction: of balls 0.41 · 98.0665 λ with λ = 0.95, of rollers 207.9 λν with
+/// λν = 0.83; N and mm.
 const BALLS: f64 = 1.3 * 0.41 * 98.0665 * 0.95;
 const ROLLERS: f64 = 1.1 * 207.9 * 0.83;
 /// ISO 281 counts larger balls by another power of their diameter (mm).
@@ -108,11 +107,11 @@ fn static_factor(gamma: f64, [inner, outer]: [f64; 2]) -> f64 {
     let of = |along: f64, conformity: f64| ball_at_static_pressure([along, 2.0 - 1.0 / conformity]);
     let inner = of(2.0 / (1.0 - gamma), inner.max(CLOSEST));
     let outer = of(2.0 / (1.0 + gamma), outer.max(CLOSEST_OUTSIDE));
-    1e-6 * inner.min(outer) / MOST_LOADED
+    1e-6 * inner.min(outer) / STRIBECK
 }
 
-/// Force over D² (Pa) at ISO 76's pressure, for the relative curvatures times D: p = 3Q/(2πab), a³ = 3Q(K − E)/(2πE* e² A)
-/// and b² = a²(1 − e²).
+/// Force over D² (Pa) at ISO 76's pressure, for the relative curvatures times D: p = 3Q/(2πab), a³ = 3Q(K − E)/(2πE* e²
+/// A) and b² = a²(1 − e²).
 fn ball_at_static_pressure([along, across]: [f64; 2]) -> f64 {
     let m = squared_eccentricity(along.max(across) / along.min(across));
     let (k, e) = elliptic::complete(m);

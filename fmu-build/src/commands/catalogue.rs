@@ -62,8 +62,8 @@ fn entries(filter: &str) -> Result<Vec<CatalogueBearing>> {
 
 fn table(entries: &[CatalogueBearing]) -> String {
     let mut text = String::from(
-        "Deep groove (6...) and angular contact ball bearings (72...; C 15, AC 25, B 40 degrees) and cylindrical roller\n\
-         bearings (NU...; NJ, NUP and N are the same inside).\n\
+        "Deep groove (6...), insert (ER16K) and angular contact ball bearings (72...; C 15, AC 25, B 40 degrees),\n\
+         cylindrical roller bearings (NU...; NJ, NUP and N are the same inside).\n\
          Bore, outside diameter and width by ISO 15; clearance CN by ISO 5753-1; elements as the last column says.\n\n\
          name      d    D    B [mm]  elements  diameter [mm]  length [mm]  pitch [mm]  CN [um]  elements and pitch \
          diameter\n",

@@ -2,10 +2,10 @@
 //! (SKF, Rolling bearings, 17000/1 EN, 2018: table 6 of deep groove ball bearings, table 3 of cylindrical roller
 //! bearings).
 //!
-//! It is what one ring can be moved against the other, from stop to stop. A class has a smallest and a largest value for
-//! each range of bores; its middle is what is taken where nothing more is known. A letter behind the class takes a part
-//! of it: H its upper half, L its lower half, M its middle half, P its upper half and the lower half of the next class.
-//! Fits and warmth of a mounted bearing take some of it away.
+//! It is what one ring can be moved against the other, from stop to stop. A class has a smallest and a largest value
+//! for each range of bores; its middle is what is taken where nothing more is known. A letter behind the class takes a
+//! part of it: H its upper half, L its lower half, M its middle half, P its upper half and the lower half of the next
+//! class. Fits and warmth of a mounted bearing take some of it away.
 //!
 //! Angular contact ball bearings of one row have no radial clearance of their own: their contact angle gives it.
 

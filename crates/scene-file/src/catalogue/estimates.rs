@@ -20,12 +20,12 @@
 //! 76): 0.45 of the width of an NU202 and 0.5 to 0.65 of all others, as chamfers take as much of short rollers as of
 //! long ones. Makers crown their rollers each in their own way. NU, NJ, NUP and N differ in their flanges alone.
 //!
-//! Angular contact bearings 7202 to 7212 have the boundary of 6202 to 6212 (ISO 15) and by the letters behind the number
-//! a contact angle of 15 degrees, C, of 25, AC (E of Schaeffler, A5 of NSK), or of 40, B. What is inside is estimated:
-//! pitch circle and balls as above. One shoulder of a ring is cut away, so that more balls go in than into a deep groove
-//! bearing: of those that fill the pitch circle 93 % of B and AC and 87 % of C, whose cages are thicker. SKF's static
-//! ratings of BEP and ACCBM are 9 % below to 14 % above those of as many balls; the share of C is assumed. The number
-//! may be one off here too.
+//! Angular contact bearings 7202 to 7212 have the boundary of 6202 to 6212 (ISO 15) and by the letters behind the
+//! number a contact angle of 15 degrees, C, of 25, AC (E of Schaeffler, A5 of NSK), or of 40, B. What is inside is
+//! estimated: pitch circle and balls as above. One shoulder of a ring is cut away, so that more balls go in than into a
+//! deep groove bearing: of those that fill the pitch circle 93 % of B and AC and 87 % of C, whose cages are thicker.
+//! SKF's static ratings of BEP and ACCBM are 9 % below to 14 % above those of as many balls; the share of C is assumed.
+//! The number may be one off here too.
 
 use super::{CatalogueBearing, Inside};
 

@@ -1,9 +1,9 @@
 //! Names as makers write them: `SKF 6205-2Z/C3`, `NU 205 ECP`, `7205 BEP/HC5C3`, `HCB7205-C-T-P4S`.
 //!
 //! A name is a maker, letters in front, a number and what stands behind it, with blanks, dashes, dots and strokes
-//! between them where a maker likes them. Behind the number come codes one after another, several in a word. A clearance
-//! class, ceramic elements and the contact angle say what the model needs; seals, cages, greases and tolerances are
-//! without effect and named as such; what is not known, or would change the bearing, is asked about.
+//! between them where a maker likes them. Behind the number come codes one after another, several in a word. A
+//! clearance class, ceramic elements and the contact angle say what the model needs; seals, cages, greases and
+//! tolerances are without effect and named as such; what is not known, or would change the bearing, is asked about.
 
 use super::clearance::ClearanceClass;
 use super::suffixes::{Meaning, codes};

@@ -1,8 +1,8 @@
 //! What makers put behind the number of a bearing, code by code, as their catalogues explain them (SKF, Rolling
 //! bearings, 17000/1 EN, 2018; NTN, Ball and roller bearings, 2203/E; Schaeffler, HR 1; NSK, E1103).
 //!
-//! Codes of several makers stand side by side: one that is two makers' means nothing else to a model than that it has no
-//! effect, or stands among those of one kind of bearing alone. `#` is a digit.
+//! Codes of several makers stand side by side: one that is two makers' means nothing else to a model than that it has
+//! no effect, or stands among those of one kind of bearing alone. `#` is a digit.
 
 use super::Kind;
 use super::clearance::ClearanceClass;

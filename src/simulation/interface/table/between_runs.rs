@@ -47,11 +47,11 @@ impl Builder<'_> {
         let seed = scene.bearing.drawn_diameters.map(|drawn| drawn.seed);
         let what = "Seed of the elements' diameters";
         self.seed("bearing.element_diameter_seed", what, seed, Parameter::DiameterSeed);
-        self.internal_clearance();
+        self.clearance_of_catalogues();
     }
 
     /// Clearance as catalogues count, of bearings whose contact angle does not give it.
-    fn internal_clearance(&mut self) {
+    fn clearance_of_catalogues(&mut self) {
         let bearing = &self.scene.bearing;
         if bearing.contact_angle.is_none() {
             let largest = 2.0 * bearing.element_diameter;
