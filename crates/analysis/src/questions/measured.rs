@@ -160,9 +160,12 @@ impl<'a> Line<'a> {
         is_own.then(|| AsMeasured::Form { radius_mm: 1e3 / curvature.abs(), body_mm: 1e3 * radius })
     }
 
-    /// Depths of the first and the last point (m).
+    /// Depths of the first and the last point (m), by themselves or with those beside them: neither a spike there nor a
+    /// slope that begins there is an end off depth 0.
     fn ends(&self) -> [f64; 2] {
-        [self.smooth[0], self.smooth[self.smooth.len() - 1]]
+        let nearer =
+            |k: usize| if self.depths[k].abs() < self.smooth[k].abs() { self.depths[k] } else { self.smooth[k] };
+        [0, self.depths.len() - 1].map(nearer)
     }
 
     /// Depths from the line through both ends (m).
@@ -285,6 +288,18 @@ mod tests {
         let wedge = |arc: f64, _: f64| 15.0 * (2.0 - arc.abs()).max(0.0);
         for text in [trace(8.0, 0.2, floor), trace(8.0, 0.0, wedge)] {
             assert_eq!(asked(DefectOn::Outer, Measured::default(), &text), []);
+        }
+    }
+
+    #[test]
+    fn nothing_is_asked_about_shipped_traces() {
+        for (on, text) in [
+            (DefectOn::Outer, include_str!("../../../../scenes/6205-epps-trace.csv")),
+            (DefectOn::Inner, include_str!("../../../../scenes/6205-machine-lobes.csv")),
+            (DefectOn::Outer, include_str!("../../../../scenes/6205-machine-spall.csv")),
+            (DefectOn::Inner, include_str!("../../../../scenes/6205-machine-spall-inner.csv")),
+        ] {
+            assert_eq!(asked(on, Measured::default(), text), []);
         }
     }
 
