@@ -102,6 +102,7 @@ impl Case {
         }
         case.clearance_um *= length;
         case.modulus_gpa *= force / (length * length);
+        case.element = case.element.map(|[modulus, ratio]| [modulus * force / (length * length), ratio]);
         case.density = case.density.map(|density| density * mass / (length * length * length));
         case.mass_g = case.mass_g.map(|m| m * mass);
         case.hertz = case.hertz.map(|k| k.map(|k| k * force / (length * length.sqrt())));
