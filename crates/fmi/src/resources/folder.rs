@@ -26,8 +26,8 @@ pub(crate) fn load(directory: &Path) -> Result<SharedModel, ResourceError> {
     SharedModel::obtain(guid, &directory.join("map.bin"), set_up)
 }
 
-/// Asks for as much memory as setting up the resources in a directory takes, and gives it back: an allocation that fails
-/// later would end the host's process.
+/// Asks for as much memory as setting up the resources in a directory takes, and gives it back: an allocation that
+/// fails later would end the host's process.
 fn ask_for_memory(directory: &Path) -> Result<(), ResourceError> {
     let files = fs::read_dir(directory).into_iter().flatten().flatten();
     let bytes: u64 = files.filter_map(|file| file.metadata().ok()).map(|file| file.len()).sum();

@@ -69,7 +69,7 @@ impl Simulation {
     }
 
     /// The change of `unknowns`, real outputs, for a change `seed` of `knowns`, real inputs or before `initialize` real
-    /// parameters, to first order. The continuous states of [`crate::simulation::exchange`] and their derivatives are
+    /// parameters, to first order. The continuous states of `exchange` and their derivatives are
     /// unknowns as well; the states are knowns once the run has started.
     /// ```
     /// use brinell::scene::{Bearing, Scene};
