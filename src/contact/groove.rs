@@ -379,7 +379,9 @@ mod tests {
                 let moved: [Changing; 3] = std::array::from_fn(|i| changing(at[i], rate[i]));
                 let tilted: [Changing; 2] = std::array::from_fn(|i| changing(tilt[i], tilt_rate[i]));
                 let found = GrooveContact::of(&groove, moved, &Axis::tilted(tilted, [Changing::constant(0.0); 2]));
-                prop_assert!((found.approach.by[0] - contact.closing(velocity)).abs() < 1e-12);
+                // On the far side of the circle's centre nothing touches, and no force asks for the rate.
+                let touches = groove.cosine(contact.meridian) > 0.0;
+                prop_assert!(!touches || (found.approach.by[0] - contact.closing(velocity)).abs() < 1e-12);
             }
         }
     }

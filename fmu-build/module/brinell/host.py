@@ -220,11 +220,11 @@ class Bearing(Instance):
                 place, force, longest = place + step, there, 2.0 * np.linalg.norm(step)
                 longest = max(longest, FIRST)
                 continue
-            # Rounding: the FMU's own balance is as good.
-            if np.linalg.norm(force) <= 1e3 * wanted:
-                self.force_at(place / reach)
-                return place / reach
             break
+        # Rounding: the FMU's own balance is as good.
+        if force is not None and np.linalg.norm(force) <= 1e3 * wanted:
+            self.force_at(place / reach)
+            return place / reach
         over = [] if force is None else [f"{x:.3g}" for x in force * reach]
         raise RuntimeError(f"{self.name}: no position carries {load}; at {place / reach} {over} is left{why}")
 

@@ -85,9 +85,11 @@ fn only_topographies_that_balls_meet_beside_their_track_have_a_counter_of_it() {
     let folder = common::folder("topography");
     let depths = "arc_mm,axial_mm,depth_um\n-0.1,0.8,0\n-0.1,1.4,0\n0.1,0.8,0\n0.1,1.4,0\n";
     fs::write(folder.join("topography.csv"), depths).unwrap();
+    // In the plane balls stay on the track, so rows must reach there.
+    fs::write(folder.join("on_track.csv"), depths.replace("0.8,", "-0.3,").replace("1.4,", "0.3,")).unwrap();
     fs::write(folder.join("trace.csv"), "arc_mm,depth_um\n-0.1,0\n0.1,0\n").unwrap();
     for (freedom, file, counts) in
-        [(3, "topography", true), (5, "topography", true), (2, "topography", false), (3, "trace", false)]
+        [(3, "topography", true), (5, "topography", true), (2, "on_track", false), (3, "trace", false)]
     {
         let in_space = if freedom == 2 { "" } else { "operating_angle_deg = 15.0\n" };
         let scene = format!(

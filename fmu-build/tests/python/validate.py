@@ -13,7 +13,10 @@ schema = etree.XMLSchema(etree.parse(Path(fmpy.__file__).parent / "schema" / "fm
 
 
 def terminals(fmu):
-    with ZipFile(fmu) as archive, archive.open("terminalsAndIcons/terminalsAndIcons.xml") as file:
+    with ZipFile(fmu) as archive:
+        if "terminalsAndIcons/terminalsAndIcons.xml" not in archive.namelist():
+            return []
+        file = archive.open("terminalsAndIcons/terminalsAndIcons.xml")
         schema.validate(etree.parse(file))
     return [f"{fmu}: {error.message}" for error in schema.error_log]
 

@@ -20,12 +20,16 @@ use super::hours::typed;
 use crate::common;
 
 /// How a command begins, and the test that types it, as `file: name`; or why none does.
-const ELSEWHERE: [(&str, &str); 12] = [
+const ELSEWHERE: [(&str, &str); 13] = [
     ("cargo fmu demo", "tests/program/pages/commands.rs: the_demo_is_what_the_readme_shows"),
     ("cargo fmu build scenes/6205-epps.toml --platforms all", "tests/platforms.rs: all_platforms"),
     ("cargo lab site", "../laboratory/src/site.rs: every_page_is_in_the_contents_once_and_links_lead_somewhere"),
     ("cargo test --workspace", "is this"),
     ("cargo fmu run 6205-spall-5deg-machine", "as `brinell run`, minutes"),
+    (
+        "python own_host.py mine.fmu",
+        "tests/examples/main.rs: the_host_of_forty_lines_on_its_page_runs_with_a_new_hosted_scene",
+    ),
     ("python examples/", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     ("python3 -m venv", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     (". target/examples-env", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),

@@ -253,7 +253,7 @@ assert brinell.__version__
 scene = brinell.new("mine", bearing="6206", defect="inner:1.2mm")
 assert scene.is_file() and 'on = "inner"' in scene.read_text()
 assert 'motion = "host"' in brinell.new("hosted", hosted=True).read_text()
-assert "load_n = [0.0, -350.0, 200.0]" in brinell.new("pushed", axial=200.0).read_text()
+assert "load_n = [0.0, -390.0, 200.0]" in brinell.new("pushed", axial=200.0).read_text()
 unnamed = brinell.new(bearing="7205B", axial=500.0)
 assert unnamed.name == "7205b-healthy.toml" and ", 500.0]" in unnamed.read_text(), unnamed
 (found,) = listed = brinell.catalogue("6205")

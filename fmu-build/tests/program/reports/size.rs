@@ -96,7 +96,7 @@ fn a_bearing_of_the_catalogue_and_rpm_are_enough_and_the_answer_is_a_line() {
     assert!(paged && text.contains("<h1>no fault found, no length</h1>") && text.contains("two.csv"), "{text:.400}");
     assert_eq!(text.matches("<polyline points=\"0.0,").count(), 4);
     assert!(["rolling element (2 BSF)", ">BPFO<", ">2 × BPFI<", ">shaft<"].iter().all(|part| text.contains(part)));
-    assert!(done && said.contains("shaft 10.0000 Hz") && said.contains("a load of 350 N is assumed"), "{said}");
+    assert!(done && said.contains("shaft 10.0000 Hz") && said.contains("a load of 390 N is assumed"), "{said}");
     assert!(said.contains("\nno fault found, no length: "), "{said}");
     assert!(is_sought_at_10_hz(&answer), "{answer}");
     let (done, said, _) = with(&["--load", "1200", "--channel", "2"]);
