@@ -269,7 +269,7 @@ impl Simulation {
 
     /// Notes how the host is wired once it steps, in classes of `value_access`.
     #[inline]
-    pub(super) fn note_wiring(&mut self, classes: u8) {
+    pub(in crate::simulation) fn note_wiring(&mut self, classes: u8) {
         if self.run.state.history.step > 0.0 {
             self.wiring.note(classes);
         }

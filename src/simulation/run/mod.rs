@@ -1,6 +1,5 @@
 //! The life of one bearing: set up, initialized, stepped, saved and restored.
 
-mod derivatives;
 mod excitation;
 mod life;
 mod look_ahead;
@@ -14,7 +13,7 @@ mod values;
 
 pub use life::Simulation;
 pub(in crate::simulation) use life::UpToDate;
-pub(in crate::simulation) use running::Run;
+pub(in crate::simulation) use running::{Present, Run};
 pub use samples::Sample;
 pub use state::State;
 pub use stepping::{Inspection, StepUnderWay};

@@ -4,7 +4,7 @@
 use crate::contact::law::Elasticity;
 use crate::simulation::interface::Parameter;
 use crate::simulation::interface::table::Kind;
-use crate::simulation::run::life::UpToDate;
+use crate::simulation::run::UpToDate;
 use crate::simulation::{Simulation, SimulationError};
 
 /// How far a parameter is moved for the difference of two starts, a clearance by `approach` (m). Forces of a start are
@@ -54,7 +54,7 @@ impl Simulation {
     }
 
     /// Adds the derivative of `unknowns` at the start by a parameter, `weight` times, to `values`.
-    pub(in crate::simulation::run) fn along_parameter(
+    pub(super) fn along_parameter(
         &self,
         unknowns: &[u32],
         (known, parameter): (u32, Parameter),

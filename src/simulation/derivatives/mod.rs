@@ -17,13 +17,12 @@
 
 mod by_parameter;
 
-use super::life::UpToDate;
-use super::running::Present;
 use crate::dynamics::derivatives::Going;
 use crate::dynamics::parameters::{Excitation, Frame, Kinematics, RingInSpace};
 use crate::dynamics::quasi_static::in_plane;
 use crate::numerics::plane::Vector;
 use crate::simulation::interface::{Change, Input, Quantity, RingName, as_many, dependencies, value_access};
+use crate::simulation::run::{Present, UpToDate};
 use crate::simulation::{Simulation, SimulationError, VariableError};
 
 /// Fills values of unknowns from knowns and a seed of theirs, in this order.
