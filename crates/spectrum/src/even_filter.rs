@@ -27,7 +27,7 @@ impl EvenFilter {
     /// Filter whose answer to a unit at the origin is `kernel[row × along + column]`, which repeats itself with the
     /// period `along` in columns and that of its rows; `shape` turns its spectrum, of which it is given each value and
     /// the largest, into the filter's.
-    pub fn new(along: usize, kernel: &[f64], shape: impl Fn(f64, f64) -> f64) -> Self {
+    pub fn new(along: usize, kernel: &[f64], shape: &dyn Fn(f64, f64) -> f64) -> Self {
         let rows = kernel.len() / along;
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();

@@ -4,7 +4,8 @@
 //! takes the signal as periodic: the first and last milliseconds are worthless, and callers leave the outer passages
 //! alone.
 //!
-//! A crate of its own: the transforms are generic, and are compiled here once for all who use them.
+//! A crate of its own: the transforms are generic, and are compiled here once for all who use them. So nothing public is
+//! generic: it would be compiled with its transforms in each caller.
 
 mod even_filter;
 
@@ -53,11 +54,11 @@ impl Spectrum {
 
     /// The signal in a band.
     pub fn filtered(&mut self, band: Band) -> Vec<f64> {
-        self.inverse(|frequency| band.gain(frequency), Complex::new(1.0, 0.0))
+        self.inverse(&|frequency| band.gain(frequency), Complex::new(1.0, 0.0))
     }
 
     /// The signal with each of its frequencies (Hz) multiplied by a gain.
-    pub fn shaped(&mut self, gain: impl Fn(f64) -> f64) -> Vec<f64> {
+    pub fn shaped(&mut self, gain: &dyn Fn(f64) -> f64) -> Vec<f64> {
         self.inverse(gain, Complex::new(1.0, 0.0))
     }
 
@@ -65,14 +66,14 @@ impl Spectrum {
     pub fn squared_envelope(&mut self, band: Band) -> Vec<f64> {
         let mut envelope = self.filtered(band);
         // The Hilbert transform turns every positive frequency by −90°.
-        let quadrature = self.inverse(|frequency| band.gain(frequency), Complex::new(0.0, -1.0));
+        let quadrature = self.inverse(&|frequency| band.gain(frequency), Complex::new(0.0, -1.0));
         for (x, y) in envelope.iter_mut().zip(quadrature) {
             *x = *x * *x + y * y;
         }
         envelope
     }
 
-    fn inverse(&mut self, gain: impl Fn(f64) -> f64, factor: Complex<f64>) -> Vec<f64> {
+    fn inverse(&mut self, gain: &dyn Fn(f64) -> f64, factor: Complex<f64>) -> Vec<f64> {
         let step = self.rate / self.len as f64;
         let scale = 1.0 / self.len as f64;
         let mut bins: Vec<_> =

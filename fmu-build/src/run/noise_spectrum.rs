@@ -96,7 +96,7 @@ impl NoiseSpectrum {
     fn draw(&self, count: u64, rate: f64, seed: u64, signal: u64) -> Vec<f64> {
         let count = (2 * count).next_power_of_two();
         let white: Vec<f64> = (0..count).map(|row| gaussian(seed, STREAM + signal, row as i64)).collect();
-        Spectrum::of(&white, rate).shaped(|frequency| (0.5 * rate * self.density(frequency)).sqrt())
+        Spectrum::of(&white, rate).shaped(&|frequency| (0.5 * rate * self.density(frequency)).sqrt())
     }
 }
 
@@ -118,7 +118,7 @@ mod tests {
         // Mean squares of what a band has, against the integral of the table's density over it.
         let mut of = Spectrum::of(drawn, RATE);
         for (low, high) in [(10.0, 30.0), (49.0, 51.0), (100.0, 200.0), (900.0, 1100.0), (2000.0, 4900.0)] {
-            let within = of.shaped(|frequency| f64::from(u8::from((low..high).contains(&frequency))));
+            let within = of.shaped(&|frequency| f64::from(u8::from((low..high).contains(&frequency))));
             let power = within.iter().map(|x| x * x).sum::<f64>() / within.len() as f64;
             let steps = 10_000;
             let width = (high - low) / f64::from(steps);
@@ -128,7 +128,7 @@ mod tests {
             let squares = (high - low) * drawn.len() as f64 / RATE;
             assert!((power / expected - 1.0).abs() < 4.0 / squares.sqrt() + 0.02, "{low}: {power} {expected}");
         }
-        let beyond = of.shaped(|frequency| f64::from(u8::from(!(9.0..5010.0).contains(&frequency))));
+        let beyond = of.shaped(&|frequency| f64::from(u8::from(!(9.0..5010.0).contains(&frequency))));
         let all = drawn.iter().map(|x| x * x).sum::<f64>();
         // What is cut out of a longer signal leaks a little.
         assert!(beyond.iter().map(|x| x * x).sum::<f64>() < 1e-3 * all);

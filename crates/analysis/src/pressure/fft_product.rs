@@ -42,9 +42,9 @@ impl FftProduct {
             .collect();
         Self {
             columns,
-            product: EvenFilter::new(along, &padded, |eigenvalue, _| eigenvalue),
+            product: EvenFilter::new(along, &padded, &|eigenvalue, _| eigenvalue),
             // A preconditioner has to be positive; the wrapped kernel's spectrum is, this guards against rounding.
-            inverse: EvenFilter::new(near, &wrapped, |eigenvalue, largest| 1.0 / eigenvalue.max(1e-6 * largest)),
+            inverse: EvenFilter::new(near, &wrapped, &|eigenvalue, largest| 1.0 / eigenvalue.max(1e-6 * largest)),
         }
     }
 
