@@ -7,21 +7,12 @@ use minijinja::context;
 use super::contact;
 use super::integration::{Check, Integration, Row};
 
-/// Errors of the acceleration at which costs are compared.
-const LEVELS: [f64; 3] = [1e-2, 1e-3, 1e-5];
-const METHODS: [&str; 4] = ["automatic", "phase-fitted only", "DP5 only", "Rodas5P only"];
-
 /// The whole page.
 ///
 /// # Errors
 /// Of its template.
 pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integration) -> Result<String> {
     let Integration { rows, checks, stop } = integration;
-    let columns: Vec<(f64, &str)> = LEVELS.iter().flat_map(|&level| METHODS.map(|method| (level, method))).collect();
-    let costs = |check: &Check| {
-        let costs = columns.iter().map(|&(level, method)| cheapest(rows, &check.scene, method, level));
-        std::iter::once(check.scene.clone()).chain(costs).collect::<Vec<_>>()
-    };
     let automatic: Vec<&Row> = rows.iter().filter(|row| row.method == "automatic").collect();
     let mut settings: Vec<f64> = automatic.iter().map(|row| row.setting).collect();
     settings.sort_by(|a, b| b.total_cmp(a));
@@ -35,8 +26,6 @@ pub(super) fn page(machine: &str, contacts: &[contact::Row], integration: &Integ
         machine,
         milliseconds => format!("{:.0}", 1e3 * stop),
         contacts => contacts.iter().map(contact_row).collect::<Vec<_>>(),
-        levels => columns.iter().map(|(level, method)| format!("{method}, {level:.0e}")).collect::<Vec<_>>(),
-        cheapest => checks.iter().map(costs).collect::<Vec<_>>(),
         settings => settings.iter().map(|setting| format!("{setting:.0e}")).collect::<Vec<_>>(),
         tolerances => checks.iter().map(tolerances).collect::<Vec<_>>(),
         checks => checks.iter().map(check_row).collect::<Vec<_>>(),
@@ -68,14 +57,6 @@ fn check_row(check: &Check) -> Vec<String> {
 
 fn short(error: f64) -> String {
     format!("{error:.1e}")
-}
-
-fn cheapest(rows: &[Row], scene: &str, method: &str, level: f64) -> String {
-    let good = rows.iter().filter(|row| row.scene == scene && row.method == method);
-    good.filter(|row| row.deviation.acceleration_rms <= level)
-        .map(|row| row.cost)
-        .min_by(f64::total_cmp)
-        .map_or("–".to_owned(), cost)
 }
 
 /// Three digits.
