@@ -24,7 +24,7 @@ fn table(page: &mut String, schema: &Value, table: &Value, path: &str) -> Result
         writeln!(page, "A table without keys.")?;
         return Ok(());
     };
-    writeln!(page, "| key | what it takes | what it is | without it |\n|---|---|---|---|")?;
+    writeln!(page, "| key | takes | meaning | default |\n|---|---|---|---|")?;
     let needed = |key: &str| table["required"].as_array().is_some_and(|all| all.iter().any(|name| name == key));
     let mut inner = Vec::new();
     for (key, property) in keys {
@@ -32,11 +32,11 @@ fn table(page: &mut String, schema: &Value, table: &Value, path: &str) -> Result
         let kind = meant(schema, property);
         let takes = takes(schema, kind, &path).with_context(|| format!("what does {path} take? {property}"))?;
         let without = match &property["default"] {
-            _ if needed(key) => "it is needed".to_owned(),
+            _ if needed(key) => "required".to_owned(),
             // A table that may be missing is none; of others each key has what holds without it.
             Value::Null if of_table(schema, kind).is_some() => {
                 let is_read = property["$ref"].is_string() && kind["type"] == "object";
-                (if is_read { "what its keys say" } else { "none" }).to_owned()
+                (if is_read { "by its keys" } else { "none" }).to_owned()
             }
             Value::Null => String::new(),
             Value::Number(number) => number.as_f64().map(|value| format!("`{}`", digits(value))).unwrap_or_default(),
@@ -148,7 +148,7 @@ mod tests {
         }
         for part in [
             "## `[sensor.mode]`\n",
-            "| `solver` | table | Time integration. | what its keys say |",
+            "| `solver` | table | Time integration. | by its keys |",
             "| `film` | table | An oil film; without it contacts are dry. | none |",
             "| `stiffness_n_m` | number, from 0, to 1e15 | Stiffness to the ground. | `1.51056e7` |",
             "## `[probe]`\n\nA table without keys.",
@@ -163,6 +163,6 @@ mod tests {
             assert!(page.contains(part), "{part} is not in:\n{page}");
         }
         let motion = page.lines().find(|line| line.starts_with("| `motion`")).unwrap();
-        assert!(motion.ends_with("| it is needed |"), "{motion}");
+        assert!(motion.ends_with("| required |"), "{motion}");
     }
 }
