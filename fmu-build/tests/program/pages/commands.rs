@@ -20,7 +20,7 @@ use super::hours::typed;
 use crate::common;
 
 /// How a command begins, and the test that types it, as `file: name`; or why none does.
-const ELSEWHERE: [(&str, &str); 13] = [
+const ELSEWHERE: [(&str, &str); 12] = [
     ("cargo fmu demo", "tests/program/pages/commands.rs: the_demo_is_what_the_readme_shows"),
     ("cargo fmu build scenes/6205-epps.toml --platforms all", "tests/platforms.rs: all_platforms"),
     ("cargo lab site", "../laboratory/src/site.rs: every_page_is_in_the_contents_once_and_links_lead_somewhere"),
@@ -36,7 +36,6 @@ const ELSEWHERE: [(&str, &str); 13] = [
     ("pip install -r examples", "tests/examples/main.rs: every_command_of_the_guide_is_run_here"),
     (".ci/platforms", "tests/platforms.rs: all_platforms"),
     ("sbatch ", "tests/program/sweep/mod.rs: parts_of_a_sweep_made_anywhere_join_to_the_bits_of_one_run"),
-    ("valgrind ", "needs Valgrind"),
 ];
 /// What the pages' text says that a user has: a sweep, a speed, a recording.
 const SWEEP: &str = "scene = \"er16k-tb1\"\nruns = 18\nstop_s = 0.06\n[set]\ncontact.law = \"hertz\"\n";
