@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand};
 use fmu_build::cli::Talk;
 use fmu_build::shared::Project;
 
-use crate::{dist, report, site, validation};
+use crate::{diagnosis, dist, report, site, validation};
 
 /// Brinell's laboratory: computes the pages in docs/ anew and makes what users install. `cargo fmu` is the program.
 #[derive(Debug, Parser)]
@@ -26,10 +26,22 @@ enum Command {
     Report(Report),
     /// Computes every claim of the paper anew: docs/evidence/validation.md and its figures
     Validate(Validate),
+    /// Judges recordings of known machines, whole, in halves and by the second, beside a plain script: tables as Markdown
+    Diagnose(Diagnose),
     /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
     Dist(Dist),
     /// The documentation as a book: docs/ as it is, and every key of a scene; needs mdBook
     Site(Site),
+}
+
+#[derive(Debug, Args)]
+struct Diagnose {
+    /// CSV file with a row for each recording: file, machine, bearing, speed_hz, fault (outer, inner, ball, none), and
+    /// where they are known rate_hz, length_deg, load_n, channel
+    list: PathBuf,
+    /// Write each answer into this file
+    #[arg(short, long, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -109,6 +121,7 @@ impl Arguments {
                 let extent = if options.short { report::Extent::Short } else { report::Extent::Full };
                 report::command(&project, extent, &folder)
             }
+            Command::Diagnose(options) => diagnosis::command(&options.list, options.output.as_deref()),
             Command::Dist(options) => {
                 let folder = options.output.unwrap_or_else(|| project.results("dist"));
                 dist::command(&project, &options.platforms, options.only_libraries, &folder)

@@ -79,7 +79,10 @@ fn unnamed(read: &Designation, asked: Asked) -> String {
 }
 
 /// A bearing of the catalogue without a spall, of whose rig nothing is known, under this load (N).
-pub(crate) fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
+///
+/// # Errors
+/// A name that is none, and a load that none can be.
+pub fn without_rig(bearing: &str, load: Option<f64>) -> Result<Scene> {
     let mut scene = brinell_scene_file::from_toml(&unwritten(bearing, Asked::default())?)?;
     scene.sensors.clear();
     match load {
