@@ -28,6 +28,8 @@ pub type Spatial<T> = [T; 3];
 pub struct Groove {
     /// Radius C of the circle of groove centres (m).
     pub centre_radius: f64,
+    /// The same beyond R_o − r (m), where balls' centres are that touch the bottom of the outer groove.
+    pub beyond: f64,
     /// Its axial place ζ on the ring (m).
     pub shift: f64,
     /// Distance l of ball and groove centres that just touch (m).
@@ -72,11 +74,11 @@ impl Groove {
         let (shifts, reaches, radii) = (bearing.groove_shifts(), bearing.groove_offsets(), bearing.groove_radii());
         [RacewaySide::Inner, RacewaySide::Outer].map(|side| {
             let (i, bottom) = (side as usize, side.radius(bearing));
-            let centre_radius = match side {
-                RacewaySide::Inner => bottom + radii[i],
-                RacewaySide::Outer => bottom - radii[i],
+            let (centre_radius, beyond) = match side {
+                RacewaySide::Inner => (bottom + radii[i], reaches[i] - bearing.radial_clearance),
+                RacewaySide::Outer => (bottom - radii[i], -reaches[i]),
             };
-            Self { centre_radius, shift: shifts[i], reach: reaches[i], radius: radii[i], side }
+            Self { centre_radius, beyond, shift: shifts[i], reach: reaches[i], radius: radii[i], side }
         })
     }
 
@@ -90,6 +92,17 @@ impl Groove {
     #[inline(always)]
     pub fn cosine<T: Number>(&self, [along_e, _]: [T; 2]) -> T {
         self.bottomwards(along_e)
+    }
+
+    /// Approach (m) of a ball from whose centre the circle of groove centres is this far away from the ring's axis and
+    /// along it (m), and the direction n of the force on it.
+    #[inline(always)]
+    pub fn touch<T: Number>(&self, [outwards, along]: [T; 2]) -> (T, [T; 2]) {
+        let length = (outwards * outwards + along * along).sqrt();
+        let per_length = outwards.all(1.0) / length;
+        let (near_side, reach) = (self.bottomwards(outwards), outwards.plain(self.reach));
+        let approach = outwards.all(0.0).if_less(near_side, length - reach, near_side - reach);
+        (approach, [outwards * per_length, along * per_length])
     }
 
     /// A part of what points at the circle's centre inside and away from it outside, counted from the groove's centre
@@ -122,35 +135,6 @@ impl Groove {
     }
 }
 
-/// What a ball's contact needs of the axis of its ring: that of a ring that may tilt, or one along z with nothing to
-/// work out.
-pub trait RingAxis<T: Number>: Copy {
-    /// Part h of q along the axis, distance g from it (m), and direction e in which q is away from it.
-    fn split(&self, q: Spatial<T>) -> (T, T, Spatial<T>);
-    /// n_e e + n_a a
-    fn in_meridian(&self, e: Spatial<T>, parts: [T; 2]) -> Spatial<T>;
-    /// a × e
-    fn around(&self, e: Spatial<T>) -> Spatial<T>;
-    /// Velocity (m/s) against the ring of what is at q and moves at `rate` (m/s).
-    #[inline(always)]
-    fn velocity(&self, _q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
-        rate
-    }
-    /// The same by axes of which the first two are turned by `turned`.
-    #[inline(always)]
-    fn seen(&self, _turned: impl Fn(T, T) -> [T; 2]) -> Self {
-        *self
-    }
-}
-
-/// Axis of a ring that does not tilt.
-#[derive(Debug, Clone, Copy)]
-pub struct Upright;
-
-/// The same of the ring that directions are seen from: a ball is straight outwards.
-#[derive(Debug, Clone, Copy)]
-pub struct Concentric;
-
 impl<T: Number> Axis<T> {
     /// Of a ring that is tilted (rad) about the first two axes, and tilts further (rad/s).
     #[inline(always)]
@@ -162,9 +146,8 @@ impl<T: Number> Axis<T> {
             turning: [rate_x / square, rate_y / square, (x * rate_y - y * rate_x) / square],
         }
     }
-}
 
-impl<T: Number> RingAxis<T> for Axis<T> {
+    /// Part h of q along the axis, distance g from it (m), and direction e in which q is away from it.
     #[inline(always)]
     fn split(&self, q: Spatial<T>) -> (T, T, Spatial<T>) {
         let height = dot(q, self.direction);
@@ -173,80 +156,39 @@ impl<T: Number> RingAxis<T> for Axis<T> {
         (height, distance, times(radial, q[0].all(1.0) / distance))
     }
 
+    /// n_e e + n_a a
     #[inline(always)]
     fn in_meridian(&self, e: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
         plus(times(e, n_e), times(self.direction, n_a))
     }
 
+    /// Velocity (m/s) against the ring of what is at q and moves at `rate` (m/s).
     #[inline(always)]
-    fn around(&self, e: Spatial<T>) -> Spatial<T> {
-        cross(self.direction, e)
-    }
-
-    #[inline(always)]
-    fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
+    pub fn velocity(&self, q: Spatial<T>, rate: Spatial<T>) -> Spatial<T> {
         minus(rate, cross(self.turning, q))
     }
 
+    /// The same by axes of which the first two are turned by `turned`.
     #[inline(always)]
-    fn seen(&self, turned: impl Fn(T, T) -> [T; 2]) -> Self {
+    pub fn seen(&self, turned: impl Fn(T, T) -> [T; 2]) -> Self {
         let ([a_x, a_y, a_z], [t_x, t_y, t_z]) = (self.direction, self.turning);
         let ([a_x, a_y], [t_x, t_y]) = (turned(a_x, a_y), turned(t_x, t_y));
         Self { direction: [a_x, a_y, a_z], turning: [t_x, t_y, t_z] }
     }
 }
 
-impl<T: Number> RingAxis<T> for Upright {
-    #[inline(always)]
-    fn split(&self, [q_x, q_y, q_z]: Spatial<T>) -> (T, T, Spatial<T>) {
-        let distance = (q_x * q_x + q_y * q_y).sqrt();
-        let per_distance = q_x.all(1.0) / distance;
-        (q_z, distance, [q_x * per_distance, q_y * per_distance, q_x.all(0.0)])
-    }
-
-    #[inline(always)]
-    fn in_meridian(&self, [e_x, e_y, _]: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
-        [e_x * n_e, e_y * n_e, n_a]
-    }
-
-    #[inline(always)]
-    fn around(&self, [e_x, e_y, e_z]: Spatial<T>) -> Spatial<T> {
-        [-e_y, e_x, e_z]
-    }
-}
-
-impl<T: Number> RingAxis<T> for Concentric {
-    #[inline(always)]
-    fn split(&self, [q_r, _, q_z]: Spatial<T>) -> (T, T, Spatial<T>) {
-        (q_z, q_r, [q_r.all(1.0), q_r.all(0.0), q_r.all(0.0)])
-    }
-
-    #[inline(always)]
-    fn in_meridian(&self, [_, none, _]: Spatial<T>, [n_e, n_a]: [T; 2]) -> Spatial<T> {
-        [n_e, none, n_a]
-    }
-
-    #[inline(always)]
-    fn around(&self, [one, none, _]: Spatial<T>) -> Spatial<T> {
-        [none, one, none]
-    }
-}
-
 impl<T: Number> GrooveContact<T> {
     /// Of a ball whose centre is at `q` (m) from the ring's, whose axis is `axis`.
     #[inline(always)]
-    pub fn of(groove: &Groove, q: Spatial<T>, axis: &impl RingAxis<T>) -> Self {
+    pub fn of(groove: &Groove, q: Spatial<T>, axis: &Axis<T>) -> Self {
         let (constant, (height, distance, outwards)) = (|value: f64| q[0].all(value), axis.split(q));
         let (in_radius, along) = (constant(groove.centre_radius) - distance, constant(groove.shift) - height);
-        let length = (in_radius * in_radius + along * along).sqrt();
-        let per_length = constant(1.0) / length;
-        let [n_e, n_a] = [in_radius * per_length, along * per_length];
-        let (near_side, reach) = (groove.bottomwards(in_radius), q[0].plain(groove.reach));
+        let (approach, [n_e, n_a]) = groove.touch([in_radius, along]);
         Self {
-            approach: constant(0.0).if_less(near_side, length - reach, near_side - reach),
+            approach,
             normal: axis.in_meridian(outwards, [n_e, n_a]),
             across: axis.in_meridian(outwards, [-n_a, n_e]),
-            around: axis.around(outwards),
+            around: cross(axis.direction, outwards),
             outwards,
             distance,
             meridian: [n_e, n_a],

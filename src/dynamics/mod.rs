@@ -5,6 +5,7 @@
 
 pub mod contacts;
 pub mod derivatives;
+mod element;
 pub mod equilibrium;
 pub mod motion;
 pub mod parameters;

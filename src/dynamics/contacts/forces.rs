@@ -1,6 +1,6 @@
 //! What an evaluation of the equations of motion finds on its way: forces on the rings, and each contact if asked for.
 
-use super::contact_lanes::Record;
+use super::record::Record;
 use super::shortcuts::Shortcuts;
 use crate::contact::error::ContactError;
 use crate::dynamics::parameters::{Cells, Defects, ElementBlock, FilmsNow, Frame, Frames, Lead, Model, SMOOTH};

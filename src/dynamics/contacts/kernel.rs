@@ -1,9 +1,10 @@
-//! One contact of one element: place, motion, law → force. Written once, for every kind of number: one element, eight
-//! side by side, and either with derivatives.
+//! One contact of one element in the plane, near a defect or not: place, motion, law → force. Written once, for one
+//! element and for several side by side, and either with derivatives; smooth contacts in motion are those of
+//! [`smooth`](super::smooth).
 //!
 //! With ρ the distance of the element from the outer ring's centre and the rings' offset p along and t across e_r,
 //! ```text
-//! q = (ρ + p, t)   n = q/|q|   δ_i = −G − u − p − t²/(|q| + q_r)   δ̇_i = −n·q̇   φ̇ = (n_r q̇_t − n_t q̇_r)/|q|
+//! q = (ρ + p, t)   n = q/|q|   δ_i = −G − (u + p + t²/(|q| + q_r))   δ̇_i = −n·q̇   φ̇ = (n_r q̇_t − n_t q̇_r)/|q|
 //! f_i = Q(δ_i, δ̇_i) n          f_o = Q(u, u′)                     on smooth raceways
 //! Δ̇ = Δ_u δ̇ + Δ_ψ (φ̇ − ω_f)   f = Q(Δ, Δ̇) (R n + T t)           near a defect
 //! ```
@@ -14,6 +15,7 @@ use crate::contact::error::ContactError;
 use crate::contact::law::{CompliantContact, SqueezeFilm};
 use crate::contact::near_defect::Approach;
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::element::off_centre;
 use crate::dynamics::parameters::{Defects, Frame, Frames, Model, OilFilms, Raceway, SMOOTH};
 use crate::numerics::number::{Number, Scalar};
 
@@ -75,19 +77,8 @@ impl<T: Number> InnerGap<T> {
     /// ([`Model::nearly_concentric`]). Written so that δ_i loses no digits to the radii's 20 mm.
     #[inline(always)]
     pub(in crate::dynamics) fn of(rho: T, u: T, [p, t]: [T; 2], clearance: T, series: bool) -> Self {
-        let q_r = rho + p;
-        let (longer, n, distance) = if series {
-            let slope = t / q_r;
-            let (x, number) = (slope * slope, |number| p.all(number));
-            let n_r = number(1.0) - x * (number(0.5) - x * p.plain(0.375));
-            let longer = t * slope * (number(0.5) - x * (number(0.125) - x * p.plain(0.0625)));
-            (longer, [n_r, slope * n_r], q_r + longer)
-        } else {
-            let square = t * t;
-            let distance = (q_r * q_r + square).sqrt();
-            (square / (distance + q_r), [q_r / distance, t / distance], distance)
-        };
-        Self { approach: -clearance - u - p - longer, n, distance }
+        let (longer, n, distance) = off_centre([rho + p, t], series);
+        Self { approach: -clearance - (u + p + longer), n, distance }
     }
 
     /// Rate q̇ (m/s) along and across e_r of an element `rho` (m) from the outer ring's centre, whose path changes at

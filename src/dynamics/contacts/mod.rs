@@ -1,7 +1,5 @@
 //! The contacts of the elements with both raceways, and the forces in them.
 
-pub mod contact_lanes;
-mod directions;
 mod element_forces;
 mod element_motion;
 mod forces;
@@ -10,14 +8,14 @@ mod linearized;
 mod meetings;
 mod non_smooth_contacts;
 mod own_elements;
+mod record;
 mod shortcuts;
+mod smooth;
 
-pub use contact_lanes::Record;
 pub use forces::{Forces, RingForces, UnsolvedContact};
+pub use record::Record;
 pub use shortcuts::Shortcuts;
 
-pub(in crate::dynamics) use contact_lanes::Sums;
-pub(in crate::dynamics) use directions::{dot, radial};
 pub(in crate::dynamics) use element_forces::{BodyTorque, ContactForces, ElementForces};
 pub(in crate::dynamics) use element_motion::ElementMotion;
 pub(in crate::dynamics) use kernel::{InnerGap, Meeting, Near};

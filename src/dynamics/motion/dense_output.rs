@@ -7,7 +7,7 @@
 //! u' = w − e_r·v_o,   u'' = w' − e_r·v_o' − ω e_t·v_o
 //! ```
 
-use crate::dynamics::contacts::{dot, radial};
+use crate::dynamics::element::{dot, radial};
 use crate::dynamics::parameters::{CageState, Excitation, Layout, LeadPieces, Model};
 use crate::numerics::lanes::{Lanes, WIDEST, Wide, blocks, blocks_mut, groups};
 use crate::numerics::polynomials::Quintic;

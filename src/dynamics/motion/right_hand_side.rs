@@ -149,14 +149,9 @@ impl<const RECORD: bool, const GENERAL: bool> Kernel for Evaluation<'_, RECORD, 
                 on_shaft = model.non_smooth_inner_contacts::<RECORD>(&handed_on(&now), state, ahead, forces);
             }
         }
-        let [shaft_x, shaft_y, housing_x, housing_y] = model.smooth_contacts::<S, RECORD, GENERAL>(
-            simd,
-            &now,
-            &stage,
-            derivative,
-            (&forces.elements, forces.films.as_ref()),
-            &mut forces.contacts,
-        );
+        let kept = (&forces.elements[..], forces.films.as_ref(), &mut forces.contacts);
+        let [[shaft_x, shaft_y], [housing_x, housing_y]] =
+            model.smooth_contacts::<S, RECORD, GENERAL>(simd, &now, &stage, derivative, kept);
         let (shaft_x, shaft_y) = (shaft_x + on_shaft.x, shaft_y + on_shaft.y);
         let (housing_x, housing_y) = (housing_x + on_housing.x, housing_y + on_housing.y);
         if RECORD && (outer || inner) {

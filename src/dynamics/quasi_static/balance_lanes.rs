@@ -4,7 +4,7 @@
 //! ```text
 //! R(u) = Q_i(δ_i(u)) n_r − Q_o(u) + B = 0,   δ_i = −G − u − p − …,   B = m (g·e_r + (R_o − r) ω²)
 //! ```
-//! with the names of [`crate::dynamics::contacts::contact_lanes`]. R falls with u and has its root between the
+//! with the names of [`crate::dynamics::element`]. R falls with u and has its root between the
 //! raceways' touching paths, widened on the side to which B pushes by the approach under B; that of a contact of
 //! constant K is below (|B|/K)^(1/4) metres. Newton's method from the path last known, halving where it would leave the
 //! bracket. An element that has settled stays where it is while others of its register go on, so that the registers'
@@ -13,9 +13,10 @@
 //! A lane without an element, or with one that is looked for alone, has constants 0 and no force.
 
 use crate::contact::law::{DampedLaw, Elastic, PUSHING_LENGTH, Point};
-use crate::dynamics::contacts::{Forces, InnerGap, Record, Sums, dot, radial};
+use crate::dynamics::contacts::{Forces, InnerGap, Record};
+use crate::dynamics::element::{dot, radial};
 use crate::dynamics::parameters::{ElementBlock, Kinematics, Model, Stage};
-use crate::numerics::lanes::{Kernel, Lanes, QUAD, WIDEST, Wide, blocks, blocks_mut, largest_of};
+use crate::numerics::lanes::{Kernel, Lanes, QUAD, Sums, WIDEST, Wide, blocks, blocks_mut, largest_of};
 use crate::numerics::plane::Vector;
 use crate::scene::Damping;
 
@@ -77,7 +78,9 @@ impl<const RECORD: bool> SmoothElements<'_, RECORD> {
                 }
             }
         }
-        sums.on_rings()
+        // Forces on elements were added: of inner contacts, then of outer ones against e_r.
+        let [shaft_x, shaft_y, housing_x, housing_y] = sums.totals();
+        [-shaft_x, -shaft_y, housing_x, housing_y]
     }
 }
 

@@ -27,8 +27,8 @@ impl Model {
         let mut sums = if self.elements_in_balance() {
             self.balls_in_balance::<RECORD>(space, &rings, stage, derivative, forces)
         } else {
-            let kept = (&*forces.elements, &mut forces.contacts);
-            self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, kept)
+            let kept = (&forces.elements[..], &mut forces.contacts);
+            flat(self.smooth_balls::<S, RECORD>(simd, space, &rings, stage, derivative, kept))
         };
         if !forces.searched.is_empty() && !self.elements_in_balance() {
             forces.frames = excitation.frames_at(cage.tau);
@@ -117,4 +117,9 @@ impl Model {
             (derivative[i], derivative[i + 1]) = (v[RINGS + k], accelerations[RINGS + k]);
         }
     }
+}
+
+/// Both rings' coordinates after each other.
+fn flat([inner, outer]: [[f64; COORDINATES]; 2]) -> [f64; RINGS] {
+    std::array::from_fn(|i| if i < COORDINATES { inner[i] } else { outer[i - COORDINATES] })
 }

@@ -115,11 +115,13 @@ impl Wide for Scalar256b {
 mod compiler;
 mod partition;
 pub mod row;
+mod sums;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod x86;
 
 pub use compiler::{handed_on, stay_a_branch};
 pub use partition::Partition;
+pub use sums::Sums;
 
 /// What runs on several numbers at a time.
 pub trait Kernel {

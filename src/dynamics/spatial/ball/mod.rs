@@ -14,22 +14,21 @@ mod chained;
 mod contacts;
 mod gyroscopic;
 mod in_balance;
-mod lanes;
 mod motion;
 
 pub(in crate::dynamics) use chained::MOVING;
 pub(in crate::dynamics) use contacts::{BallForces, BallMotion};
 
-use crate::contact::groove::{Axis, Groove, GrooveContact, RingAxis, Spatial, cross, plus, times};
+use crate::contact::groove::{Axis, Groove, GrooveContact, Spatial, cross, plus, times};
 use crate::dynamics::parameters::{COORDINATES, RingInSpace};
 use crate::numerics::number::Number;
 
 /// What is known of a ball: u, v (m), w and w_z (m/s).
 pub(in crate::dynamics) type BallState<T> = [T; 4];
 
-/// A ball as the rings see it, whose axes are `I` and `O`.
+/// A ball as the rings see it.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Ball<T, I = Axis<T>, O = Axis<T>> {
+pub(in crate::dynamics) struct Ball<T> {
     /// Direction e_r.
     pub(in crate::dynamics) e_r: [T; 2],
     /// Its speed about the outer ring's centre (rad/s).
@@ -41,18 +40,18 @@ pub(in crate::dynamics) struct Ball<T, I = Axis<T>, O = Axis<T>> {
     /// ẋ_o·e_t (m/s).
     around: T,
     /// How it is seen from the inner ring and from the outer one.
-    pub(in crate::dynamics) seen: (Seen<T, I>, Seen<T, O>),
+    pub(in crate::dynamics) seen: (Seen<T>, Seen<T>),
 }
 
 /// A ball seen from one ring, along e_r, e_t and z.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::dynamics) struct Seen<T, A = Axis<T>> {
+pub(in crate::dynamics) struct Seen<T> {
     /// Where it is (m).
     pub(in crate::dynamics) q: Spatial<T>,
     /// How fast it goes (m/s).
     pub(in crate::dynamics) rate: Spatial<T>,
     /// The ring's axis.
-    pub(in crate::dynamics) axis: A,
+    pub(in crate::dynamics) axis: Axis<T>,
 }
 
 /// Where a ball meets one groove.
@@ -98,9 +97,7 @@ impl<T: Number> Ball<T> {
     pub(in crate::dynamics) fn rates(e_r: [T; 2], [w, w_z]: [T; 2], outer: &RingInSpace<T>) -> [T; 2] {
         [w - seen(e_r, outer.velocity[0], outer.velocity[1])[0], w_z - outer.velocity[2]]
     }
-}
 
-impl<T: Number, I: RingAxis<T>, O: RingAxis<T>> Ball<T, I, O> {
     /// At u and v, which change at these rates, in direction `e_r`, going round with `omega` (rad/s), between these
     /// rings, the inner one first; `radius` is R_o − r (m).
     #[inline(always)]
@@ -110,7 +107,7 @@ impl<T: Number, I: RingAxis<T>, O: RingAxis<T>> Ball<T, I, O> {
         omega: T,
         ([u, v], rates): ([T; 2], [T; 2]),
         [inner, outer]: [&RingInSpace<T>; 2],
-        axes: (&I, &O),
+        axes: (&Axis<T>, &Axis<T>),
     ) -> Self {
         let rho = radius + u;
         let between = |k: usize| outer.position[k] - inner.position[k];
@@ -159,7 +156,7 @@ impl<T: Number, I: RingAxis<T>, O: RingAxis<T>> Ball<T, I, O> {
 impl<T: Number> Place<T> {
     /// Of a ball seen from the groove's ring.
     #[inline(always)]
-    pub(in crate::dynamics) fn of(groove: &Groove, Seen { q, rate, axis }: &Seen<T, impl RingAxis<T>>) -> Self {
+    pub(in crate::dynamics) fn of(groove: &Groove, Seen { q, rate, axis }: &Seen<T>) -> Self {
         Self { q: *q, velocity: axis.velocity(*q, *rate), contact: GrooveContact::of(groove, *q, axis) }
     }
 

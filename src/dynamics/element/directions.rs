@@ -10,7 +10,7 @@ const SERIES: f64 = 2e-3;
 
 impl Model {
     /// Whether the rings, this far apart, are so nearly concentric that their gaps are series in t/q_r
-    /// ([`InnerGap::of`](super::kernel::InnerGap)).
+    /// ([`Shifted`](super::Shifted)).
     #[inline(always)]
     pub(in crate::dynamics) fn nearly_concentric(&self, offset: Vector) -> bool {
         let limit = SERIES * self.outer_centre_radius;
