@@ -2,10 +2,9 @@
 
 use super::kernel::{InnerGap, Meeting};
 use super::shortcuts::Shortcuts;
-use crate::contact::groove::{Axis, GrooveContact};
 use crate::contact::rolling::RacewaySide;
+use crate::dynamics::element::{Element, View, views};
 use crate::dynamics::parameters::{Cells, Defects, Excitation, Frames, Kinematics, Lead, Model, SMOOTH};
-use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, parts};
 
 impl Model {
@@ -40,17 +39,11 @@ impl Model {
         now: &Kinematics,
         lead: &Lead,
     ) -> f64 {
-        let (Some(space), Some([v, _])) = (&self.space, self.layout.axial()) else {
-            return self.inner_lead(j, state[j], now, lead);
-        };
-        let [inner, outer] = self.rings_in_space(excitation, tau, state, None);
-        let e_r = self.direction_with(j, &now.cage, lead);
-        let ([along, across], tilt) =
-            (parts(now.offset(), e_r), parts(Vector::new(inner.position[3], inner.position[4]), e_r));
-        let rho = self.outer_centre_radius + state[j];
-        let q = [rho + along, across, state[v + j] + outer.position[2] - inner.position[2]];
-        let contact = GrooveContact::of(&space.grooves[0], q, &Axis::tilted(tilt, [0.0; 2]));
-        f64::angle_of([contact.outwards[0], contact.outwards[1]])
+        let Some([v, _]) = self.layout.axial() else { return self.inner_lead(j, state[j], now, lead) };
+        let [view, _] = views(&self.rings_in_space(excitation, tau, state, None));
+        let e_r = self.direction_with(j, &now.cage, lead).into();
+        let (at, rho) = ([state[j], state[v + j]], self.outer_centre_radius + state[j]);
+        view.see(&Element { e_r, at, rate: [0.0; 2], rho, omega: 0.0 }).1.lead()
     }
 
     /// Element `j` at this `angle` (rad) and path `u` where it meets the outer raceway.

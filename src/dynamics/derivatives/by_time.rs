@@ -10,6 +10,7 @@ use crate::dynamics::parameters::{
     BODIES, COORDINATES, Cells, Excitation, FramedKinematics, Kinematics, Model, SPATIAL_BODIES, Space,
 };
 use crate::dynamics::quasi_static::{Rings, in_plane, stacked};
+use crate::dynamics::spatial::accelerations;
 
 impl Variation {
     /// Makes it that by time at `tau`, all that has a state standing still.
@@ -84,8 +85,8 @@ impl Model {
             let (at, alpha) = self.changing_ball_motion(j, now, &rings, time, shortcuts);
             let found = self.changing_ball_forces(space, (cells, state), (&at, alpha), time, shortcuts);
             let [f_r, _, f_z] = found.force();
-            let [w_rate, axial] = found.ball.accelerations([f_r, f_z], self.per_mass_of(j), gravity);
-            let [u_rate, v_rate] = found.ball.rates;
+            let [w_rate, axial] = accelerations(&found.ball, &at.rings[1], [f_r, f_z], self.per_mass_of(j), gravity);
+            let [u_rate, v_rate] = found.ball.rate;
             let slots = [j, v + j, self.layout.radial_velocity + j, w_z + j];
             for (slot, rate) in slots.into_iter().zip([u_rate, v_rate, w_rate, axial]) {
                 by_time[slot] = rate.by[0];

@@ -5,9 +5,7 @@ mod by_time;
 mod elimination;
 mod fastest;
 pub mod jacobian;
-mod plane_jacobian;
 mod small_change;
-mod spatial_jacobian;
 mod spatial_variation;
 pub mod variation;
 

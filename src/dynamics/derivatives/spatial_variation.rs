@@ -6,7 +6,7 @@ use crate::dynamics::contacts::Shortcuts;
 use crate::dynamics::parameters::{
     COORDINATES, Cells, Excitation, Frame, FramedKinematics, Frames, Model, RINGS, RingInSpace, Space, Turn,
 };
-use crate::dynamics::spatial::{BallForces, BallMotion};
+use crate::dynamics::spatial::{BallForces, BallMotion, accelerations};
 use crate::numerics::number::Scalar;
 use crate::numerics::plane::{Vector, turned};
 
@@ -70,23 +70,22 @@ impl Model {
             (change.inner[j], change.outer[j]) = (inner.magnitude.by[0], outer.magnitude.by[0]);
             for side in 0..2 {
                 let pushes = found.contacts[side].magnitude.value > 0.0;
-                let meridian = found.contacts[side].place.contact.meridian;
+                let meridian = found.contacts[side].normal;
                 // The angle turns with the direction, whichever way that is counted.
                 change.contact_angles[side][j] = if pushes { Changing::angle_of(meridian).by[0] } else { 0.0 };
             }
             let [f_r, _, f_z] = found.force();
             let [g_x, g_y] = [self.gravity.x, self.gravity.y].map(Changing::constant);
             let (per_mass, g_z) = (self.per_mass_of(j), Changing::constant(space.gravity));
-            let [radial, axial] = found.ball.accelerations([f_r, f_z], per_mass, [g_x, g_y, g_z]);
-            (change.path_rate[j], change.axial_rate[j]) = (found.ball.rates[0].by[0], found.ball.rates[1].by[0]);
+            let [radial, axial] = accelerations(&found.ball, &at.rings[1], [f_r, f_z], per_mass, [g_x, g_y, g_z]);
+            (change.path_rate[j], change.axial_rate[j]) = (found.ball.rate[0].by[0], found.ball.rate[1].by[0]);
             (change.radial_acceleration[j], change.axial_acceleration[j]) = (radial.by[0], axial.by[0]);
             let e_t = turned(Vector::from(at.e_r));
-            let path = found.ball.rho - Changing::constant(self.outer_centre_radius);
             let torque = self.torque_on_cage(
                 j,
                 e_t,
                 [at.omega, alpha],
-                [path, found.ball.rates[0]],
+                [found.ball.at[0], found.ball.rate[0]],
                 found.force()[1],
                 acceleration,
             );

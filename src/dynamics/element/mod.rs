@@ -21,8 +21,10 @@ mod raceway;
 mod view;
 
 pub(in crate::dynamics) use directions::{dot, radial};
-pub(in crate::dynamics) use raceway::{Contact, Filmed, GrooveCircle, Inside, Outside, Raceway};
-pub(in crate::dynamics) use view::{Concentric, Shifted, Tilted, View, off_centre};
+pub(in crate::dynamics) use raceway::{Contact, Filmed, GrooveCircle, Inside, Outside, Raceway, Touch};
+pub(in crate::dynamics) use view::{
+    Aslant, Concentric, Shifted, Tilted, View, along, cross, dot as product, off_centre, turned_back, views,
+};
 
 /// An element, however it is seen.
 #[derive(Debug, Clone, Copy)]

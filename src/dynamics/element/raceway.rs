@@ -34,28 +34,18 @@ pub(in crate::dynamics) trait Raceway<T: Number, const P: usize>: Copy {
 
     /// The contact of an element there.
     fn contact(&self, constant: T::Plain, at: &Meridian<T, P>) -> Contact<T, P>;
-
-    /// As [`DampedLaw::pushing`].
-    fn pushing(&self, contact: &Contact<T, P>) -> T;
 }
 
 /// The law of a contact.
 pub(in crate::dynamics) trait Law<T: Number>: Copy {
     /// Force (N) of a contact of this constant at an approach (m) and its rate (m/s).
     fn force(&self, constant: T::Plain, approach: T, closing: T) -> T;
-    /// As [`DampedLaw::pushing`].
-    fn pushing(&self, approach: T, closing: T) -> T;
 }
 
-impl<T: Number<Plain = T>, E: Elastic> Law<T> for DampedLaw<T, E> {
+impl<T: Number, E: Elastic> Law<T> for DampedLaw<T::Plain, E> {
     #[inline(always)]
-    fn force(&self, constant: T, approach: T, closing: T) -> T {
+    fn force(&self, constant: T::Plain, approach: T, closing: T) -> T {
         DampedLaw::force(self, constant, approach, closing)
-    }
-
-    #[inline(always)]
-    fn pushing(&self, approach: T, closing: T) -> T {
-        DampedLaw::pushing(self, approach, closing)
     }
 }
 
@@ -73,11 +63,6 @@ impl<T: Number<Plain = T>, L: Law<T>> Law<T> for Filmed<L, T> {
         let Some(film) = &self.film else { return dry };
         // Constants of contacts are far above 1, or 0 for what is no smooth contact.
         dry + constant.at_most(constant.all(1.0)) * film.force(approach, closing)
-    }
-
-    #[inline(always)]
-    fn pushing(&self, approach: T, closing: T) -> T {
-        self.law.pushing(approach, closing)
     }
 }
 
@@ -107,11 +92,6 @@ impl<T: Number, L: Law<T>> Raceway<T, 1> for Inside<T, L> {
         let magnitude = self.law.force(constant, approach, closing);
         Contact { force: [magnitude], approach, closing, magnitude, normal: [approach.all(1.0)] }
     }
-
-    #[inline(always)]
-    fn pushing(&self, contact: &Contact<T, 1>) -> T {
-        self.law.pushing(contact.approach, contact.closing)
-    }
 }
 
 impl<T: Number, L: Law<T>> Raceway<T, 1> for Outside<L> {
@@ -126,10 +106,36 @@ impl<T: Number, L: Law<T>> Raceway<T, 1> for Outside<L> {
         let magnitude = self.law.force(constant, approach, closing);
         Contact { force: [-magnitude], approach, closing, magnitude, normal: [approach.all(-1.0)] }
     }
+}
 
+/// Where a ball touches a groove, in the meridian plane.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Touch<T> {
+    /// δ (m) and its rate (m/s).
+    pub(in crate::dynamics) approach: T,
+    pub(in crate::dynamics) closing: T,
+    /// n
+    pub(in crate::dynamics) normal: [T; 2],
+    /// t·v (m/s)
+    pub(in crate::dynamics) sliding: T,
+}
+
+impl<T: Number> Touch<T> {
     #[inline(always)]
-    fn pushing(&self, contact: &Contact<T, 1>) -> T {
-        self.law.pushing(contact.approach, contact.closing)
+    pub(in crate::dynamics) fn of(groove: &Groove, at: &Meridian<T, 2>) -> Self {
+        let ([x, h], [x_rate, h_rate]) = (at.at, at.rate);
+        let number = |value: f64| x.all(value);
+        let (approach, normal) = groove.touch([number(groove.beyond) - x, number(groove.shift) - h]);
+        let [n_x, n_h] = normal;
+        let (closing, sliding) = (-(n_x * x_rate + n_h * h_rate), n_x * h_rate - n_h * x_rate);
+        Self { approach, closing, normal, sliding }
+    }
+
+    /// A force (N) along n, and one against t.
+    #[inline(always)]
+    pub(in crate::dynamics) fn exerts(&self, force: T, against: T) -> [T; 2] {
+        let [n_x, n_h] = self.normal;
+        [force * n_x + against * n_h, force * n_h - against * n_x]
     }
 }
 
@@ -151,74 +157,12 @@ impl<T: Number, L: Law<T>> Raceway<T, 2> for GrooveCircle<'_, T::Plain, L> {
 
     #[inline(always)]
     fn contact(&self, constant: T::Plain, at: &Meridian<T, 2>) -> Contact<T, 2> {
-        let ([x, h], [x_rate, h_rate]) = (at.at, at.rate);
-        let (groove, number) = (self.groove, |value: f64| x.all(value));
-        let (approach, normal) = groove.touch([number(groove.beyond) - x, number(groove.shift) - h]);
-        let [n_x, n_h] = normal;
-        let closing = -(n_x * x_rate + n_h * h_rate);
+        let touch @ Touch { approach, closing, normal, .. } = Touch::of(self.groove, at);
         let magnitude = self.law.force(constant, approach, closing);
-        let creep = magnitude * (n_x * h_rate - n_h * x_rate) * self.across_damping;
-        let force = [magnitude * n_x + creep * n_h, magnitude * n_h - creep * n_x];
+        let force = touch.exerts(magnitude, magnitude * touch.sliding * self.across_damping);
         Contact { force, approach, closing, magnitude, normal }
-    }
-
-    #[inline(always)]
-    fn pushing(&self, contact: &Contact<T, 2>) -> T {
-        self.law.pushing(contact.approach, contact.closing)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::groove::{Axis, GrooveContact};
-    use crate::contact::law::Point;
-    use crate::dynamics::element::{Element, Shifted, Tilted, View};
-    use crate::scene::{Bearing, Damping};
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn a_ball_in_the_meridian_plane_meets_what_it_meets_in_space(
-            [u, v] in prop::array::uniform2(-3e-5..3e-5f64), offset in prop::array::uniform3(-8e-5..8e-5f64),
-            drift in prop::array::uniform3(-0.1..0.1f64), rate in prop::array::uniform2(-0.1..0.1f64),
-            tilts in any::<bool>(), tilt in prop::array::uniform2(-5e-3..5e-3f64),
-            tilting in prop::array::uniform2(-1.0..1.0f64),
-        ) {
-            let mut bearing = Bearing::steel_balls(12, 7.938e-3, 38.5e-3);
-            bearing.set_contact_angle(25f64.to_radians());
-            let rho = bearing.outer_raceway_radius() - bearing.element_radius() + u;
-            let (omega, damping) = (100.0, Damping::HuntCrossley(0.5));
-            let [tilt, tilting] = [tilt, tilting].map(|of| if tilts { of } else { [0.0; 2] });
-            let ball = Element { e_r: [1.0, 0.0], at: [u, v], rate, rho, omega };
-            let axis = Axis::tilted(tilt, tilting);
-            let q = [rho + offset[0], offset[1], v + offset[2]];
-            let velocity = axis.velocity(q, [rate[0] + drift[0], rho * omega + drift[1], rate[1] + drift[2]]);
-            for groove in &Groove::of(&bearing) {
-                let expected = GrooveContact::of(groove, q, &axis);
-                let law = DampedLaw::new(damping, Point, |number| number);
-                let raceway = GrooveCircle { groove, law, across_damping: 0.5 };
-                let (found, along_ring) = if tilts {
-                    let view = Tilted::new([offset, drift], tilt, tilting);
-                    let (at, seen) = view.see(&ball);
-                    let found = raceway.contact(2.5e10, &at);
-                    (found, Tilted::along_ring(&ball, &seen, found.force))
-                } else {
-                    let view = Shifted::<_, 3, false> { offset, drift };
-                    let (at, seen) = View::<f64, 2, 5>::see(&view, &ball);
-                    let found = raceway.contact(2.5e10, &at);
-                    (found, <Shifted<_, 3, false> as View<f64, 2, 5>>::along_ring(&ball, &seen, found.force))
-                };
-                // Rounding of 20 mm there.
-                prop_assert!((found.approach - expected.approach).abs() < 4e-17);
-                prop_assert!((found.closing - expected.closing(velocity)).abs() < 1e-11);
-                let force = expected.force(found.magnitude, found.magnitude, 0.5, velocity);
-                let moment = crate::contact::groove::cross(q, force);
-                let expected = [force[0], force[1], force[2], moment[0], moment[1]];
-                for (found, expected) in along_ring.into_iter().zip(expected) {
-                    prop_assert!((found - expected).abs() <= 1e-11 * force.map(f64::abs).iter().sum::<f64>());
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -7,11 +7,12 @@
 //! ḣ = q̇·a + q·ȧ                 ẋ = (q·q̇ − h ḣ)/g
 //! F = A q + B a    A = F_g/g    B = F_h − A h        moment about the ring's centre q × F = B q × a
 //! ```
-//! for a force F_g away from the ring's axis and F_h along it. x is summed from small numbers: of distances of 20 mm
-//! nothing is lost.
+//! for a force F_g away from the ring's axis and F_h along it. Around the axis, along t_φ = a × q/g, the element goes
+//! with φ̇ = t_φ·(q̇ − h ȧ)/g. x is summed from small numbers: of distances of 20 mm nothing is lost.
 
 use super::{Element, Meridian};
-use crate::numerics::number::Number;
+use crate::dynamics::parameters::{COORDINATES, RingInSpace};
+use crate::numerics::number::{Number, Scalar};
 
 /// How a ring of `C` coordinates, x and y, or x, y, z and its tilts, sees elements of `P`.
 pub(in crate::dynamics) trait View<T: Number, const P: usize, const C: usize>: Copy {
@@ -66,9 +67,9 @@ pub(in crate::dynamics) struct Tilted<T> {
 /// An element as a tilted ring sees it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct Aslant<T> {
-    /// q and a along e_r, e_t and z.
-    q: [T; 3],
-    axis: [T; 3],
+    /// q (m) and a along e_r, e_t and z.
+    pub(in crate::dynamics) q: [T; 3],
+    pub(in crate::dynamics) axis: [T; 3],
     /// h (m) and 1/g.
     height: T,
     per_distance: T,
@@ -93,24 +94,24 @@ pub(in crate::dynamics) fn off_centre<T: Number>([q_r, t]: [T; 2], series: bool)
 
 /// v along e_r and the direction counter-clockwise of it.
 #[inline(always)]
-fn along<T: Number>([e_x, e_y]: [T; 2], x: T, y: T) -> [T; 2] {
+pub(in crate::dynamics) fn along<T: Number>([e_x, e_y]: [T; 2], x: T, y: T) -> [T; 2] {
     [x * e_x + y * e_y, y * e_x - x * e_y]
 }
 
 /// Parts along x and y of parts along e_r and e_t.
 #[inline(always)]
-fn turned_back<T: Number>([e_x, e_y]: [T; 2], r: T, t: T) -> [T; 2] {
+pub(in crate::dynamics) fn turned_back<T: Number>([e_x, e_y]: [T; 2], r: T, t: T) -> [T; 2] {
     [r * e_x - t * e_y, r * e_y + t * e_x]
 }
 
-/// A force along a ring's coordinates; `others` are its part along z, and its moments along e_r and e_t.
+/// A force along a ring's coordinates; of rings with more than x and y `others` are its part along z, and its moments
+/// along e_r and e_t.
 #[inline(always)]
-fn by_coordinates<T: Number, const C: usize>(e_r: [T; 2], force: [T; 2], others: impl FnOnce() -> [T; 3]) -> [T; C] {
+fn by_coordinates<T: Number, const C: usize>(e_r: [T; 2], force: [T; 2], [f_z, m_r, m_t]: [T; 3]) -> [T; C] {
     let [x, y] = turned_back(e_r, force[0], force[1]);
     let mut found = [x; C];
     found[1] = y;
     if C > 2 {
-        let [f_z, m_r, m_t] = others();
         let [m_x, m_y] = turned_back(e_r, m_r, m_t);
         (found[2], found[3], found[4]) = (f_z, m_x, m_y);
     }
@@ -176,11 +177,9 @@ impl<T: Number, const P: usize, const C: usize, const D: usize, const SERIES: bo
     #[inline(always)]
     fn along_ring(element: &Element<T, P>, seen: &Beside<T>, force: [T; P]) -> [T; C] {
         let [f_r, f_t] = seen.n.map(|n| force[0] * n);
-        by_coordinates(element.e_r, [f_r, f_t], || {
-            let (f_z, [q_r, q_t]) = (force[P - 1], seen.q);
-            let q_z = seen.height.unwrap_or(q_r);
-            [f_z, q_t * f_z - q_z * f_t, q_z * f_r - q_r * f_z]
-        })
+        let (f_z, [q_r, q_t]) = (force[P - 1], seen.q);
+        let q_z = seen.height.unwrap_or(q_r);
+        by_coordinates(element.e_r, [f_r, f_t], [f_z, q_t * f_z - q_z * f_t, q_z * f_r - q_r * f_z])
     }
 }
 
@@ -208,8 +207,14 @@ impl<T: Number> Tilted<T> {
 
 /// a·b
 #[inline(always)]
-fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> T {
+pub(in crate::dynamics) fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a × b
+#[inline(always)]
+pub(in crate::dynamics) fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 impl<T: Number> View<T, 2, 5> for Tilted<T> {
@@ -217,15 +222,10 @@ impl<T: Number> View<T, 2, 5> for Tilted<T> {
 
     #[inline(always)]
     fn see(&self, element: &Element<T, 2>) -> (Meridian<T, 2>, Aslant<T>) {
-        let here = |[x, y, z]: [T; 3]| {
-            let [r, t] = along(element.e_r, x, y);
-            [r, t, z]
-        };
-        let ([p, q_t, z], [drift_r, drift_t, drift_z]) = (here(self.offset), here(self.drift));
-        let (axis, turning) = (here(self.axis), here(self.turning));
-        let ([u, v], [u_rate, v_rate]) = (element.at, element.rate);
+        let ([u, v], here) = (element.at, |of| here(element.e_r, of));
+        let ([p, q_t, z], axis) = (here(self.offset), here(self.axis));
+        let (rate, turning) = self.going(element);
         let q = [element.rho + p, q_t, v + z];
-        let rate = [drift_r + u_rate, drift_t + element.rho * element.omega, v_rate + drift_z];
         let (height, rising) = (dot(q, axis), dot(rate, axis) + dot(q, turning));
         let beside = q_t * q_t + (q[2] - height) * (q[2] + height);
         let distance = (q[0] * q[0] + beside).sqrt();
@@ -245,9 +245,44 @@ impl<T: Number> View<T, 2, 5> for Tilted<T> {
     fn along_ring(element: &Element<T, 2>, seen: &Aslant<T>, force: [T; 2]) -> [T; 5] {
         let ([f_r, f_t, f_z], along) = seen.along(force);
         let ([q_r, q_t, q_z], [a_r, a_t, a_z]) = (seen.q, seen.axis);
-        by_coordinates(element.e_r, [f_r, f_t], || {
-            [f_z, along * (a_z * q_t - a_t * q_z), along * (a_r * q_z - a_z * q_r)]
-        })
+        let moments = [along * (a_z * q_t - a_t * q_z), along * (a_r * q_z - a_z * q_r)];
+        by_coordinates(element.e_r, [f_r, f_t], [f_z, moments[0], moments[1]])
+    }
+}
+
+/// How the inner and the outer ring see what is between them.
+#[inline(always)]
+pub(in crate::dynamics) fn views<T: Number>([inner, outer]: &[RingInSpace<T>; 2]) -> [Tilted<T>; 2] {
+    let apart = |of: fn(&RingInSpace<T>) -> &[T; COORDINATES]| [0, 1, 2].map(|k: usize| of(outer)[k] - of(inner)[k]);
+    let none = [inner.position[0].all(0.0); 3];
+    let view = |apart, ring: &RingInSpace<T>| {
+        let pair = |of: &[T; COORDINATES]| [of[3], of[4]];
+        Tilted::new(apart, pair(&ring.position), pair(&ring.velocity))
+    };
+    [view([apart(|ring| &ring.position), apart(|ring| &ring.velocity)], inner), view([none; 2], outer)]
+}
+
+/// A vector along e_r, e_t and z.
+#[inline(always)]
+fn here<T: Number>(e_r: [T; 2], [x, y, z]: [T; 3]) -> [T; 3] {
+    let [r, t] = along(e_r, x, y);
+    [r, t, z]
+}
+
+impl<T: Number> Tilted<T> {
+    /// q̇ (m/s) and ȧ (1/s) along e_r, e_t and z.
+    #[inline(always)]
+    fn going(&self, element: &Element<T, 2>) -> ([T; 3], [T; 3]) {
+        let ([r, t, z], [u_rate, v_rate]) = (here(element.e_r, self.drift), element.rate);
+        ([r + u_rate, t + element.rho * element.omega, v_rate + z], here(element.e_r, self.turning))
+    }
+
+    /// Rate φ̇ (rad/s) at which an element goes around the ring, t_φ·(q̇ − h ȧ)/g.
+    #[inline(always)]
+    pub(in crate::dynamics) fn turning_of(&self, element: &Element<T, 2>, seen: &Aslant<T>) -> T {
+        let (rate, turning) = self.going(element);
+        let rate = [0, 1, 2].map(|i: usize| rate[i] - seen.height * turning[i]);
+        dot(seen.around(), rate) * seen.per_distance
     }
 }
 
@@ -259,5 +294,26 @@ impl<T: Number> Aslant<T> {
         let by_axis = along - by_q * self.height;
         let part = |i: usize| by_q * self.q[i] + by_axis * self.axis[i];
         ([part(0), part(1), part(2)], by_axis)
+    }
+
+    /// What has these parts away from the ring's axis and along it, along e_r, e_t and z.
+    #[inline(always)]
+    pub(in crate::dynamics) fn in_meridian(&self, parts: [T; 2]) -> [T; 3] {
+        self.along(parts).0
+    }
+
+    /// Direction t_φ = a × q/g around the ring.
+    #[inline(always)]
+    pub(in crate::dynamics) fn around(&self) -> [T; 3] {
+        cross(self.axis, self.q).map(|part| part * self.per_distance)
+    }
+}
+
+impl<T: Scalar> Aslant<T> {
+    /// φ − θ (rad): what its direction from the ring's axis is ahead of e_r.
+    #[inline(always)]
+    pub(in crate::dynamics) fn lead(&self) -> T {
+        let [r, t] = [0, 1].map(|i: usize| self.q[i] - self.height * self.axis[i]);
+        T::angle_of([r, t])
     }
 }

@@ -235,9 +235,12 @@ impl Model {
             let body = self.element_mass * (self.gravity.norm() + found.forces.ball.rho * omega * omega);
             let sum: f64 = found.forces.contacts.iter().map(|contact| contact.magnitude).sum();
             let force = libm::hypot(r, z);
-            // A ball that is just touched is out of balance by what the rounding of its place makes of it.
-            let laws = [&self.inner.contact, &self.outer.contact];
-            let rounded: f64 = laws.iter().map(|contact| contact.law.elastic(2.0 * ROUNDING)).sum();
+            // A ball is out of balance by what the rounding of its place makes of it.
+            let rounded: f64 =
+                found.forces.contacts.iter().zip([&self.inner, &self.outer]).fold(0.0, |sum, (at, on)| {
+                    let law = &on.contact.law;
+                    sum + law.elastic(2.0 * ROUNDING) + law.elastic_stiffness(at.approach.max(0.0)) * ROUNDING
+                });
             if !force.is_finite()
                 && let Some(unsolved) = self.unsolved_contact(cells, &at, &found.forces, shortcuts)
             {

@@ -8,5 +8,5 @@ mod ball;
 mod right_hand_side;
 mod tangent;
 
-pub(in crate::dynamics) use ball::{Ball, BallForces, BallMotion, MOVING, axis_of};
+pub(in crate::dynamics) use ball::{BallForces, BallMotion, MOVING, accelerations, rates};
 pub(in crate::dynamics) use tangent::Balls;

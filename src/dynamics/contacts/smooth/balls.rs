@@ -78,6 +78,7 @@ impl<const RECORD: bool> Balls<'_, RECORD> {
             carrier: [x, y, z],
             axial_gravity: space.gravity,
             ahead: stage.ahead,
+            law,
             views,
             raceways: (groove(0), groove(1)),
         };

@@ -9,6 +9,7 @@ mod balls;
 mod plane;
 
 use super::record::{Lists, Record};
+use crate::contact::law::{DampedLaw, Elastic};
 use crate::dynamics::element::{Contact, Element, Raceway, View, dot, radial};
 use crate::dynamics::parameters::{CageState, ElementBlock, FilmsNow, Model};
 use crate::numerics::lanes::{Lanes, Sums, WIDEST, Wide, blocks, blocks_mut};
@@ -22,7 +23,7 @@ pub(in crate::dynamics) type Kept<'a> = (&'a [ElementBlock], Option<&'a FilmsNow
 pub(in crate::dynamics) type OnRings<const C: usize> = [[f64; C]; 2];
 
 /// Smooth elements at one instant, as the inner and the outer ring see them.
-struct Smooth<'a, S: Wide, VI, VO, RI, RO> {
+struct Smooth<'a, S: Wide, E, VI, VO, RI, RO> {
     model: &'a Model,
     simd: S,
     cage: &'a CageState,
@@ -32,6 +33,7 @@ struct Smooth<'a, S: Wide, VI, VO, RI, RO> {
     axial_gravity: f64,
     /// Time (s) by which positions are still to be moved on along their rates.
     ahead: Option<f64>,
+    law: DampedLaw<Lanes<S>, E>,
     views: (VI, VO),
     raceways: (RI, RO),
 }
@@ -48,7 +50,7 @@ struct Found<S: Wide, const P: usize> {
     around: Lanes<S>,
 }
 
-impl<S: Wide, VI, VO, RI, RO> Smooth<'_, S, VI, VO, RI, RO> {
+impl<S: Wide, E: Elastic, VI, VO, RI, RO> Smooth<'_, S, E, VI, VO, RI, RO> {
     /// All elements: their part of the derivative, and, if `RECORD`, each contact. If `GENERAL`, each element has a
     /// speed and a size of its own.
     #[inline(always)]
@@ -149,7 +151,9 @@ impl<S: Wide, VI, VO, RI, RO> Smooth<'_, S, VI, VO, RI, RO> {
             around: none,
         };
         if RECORD {
-            found.pushing = [self.raceways.0.pushing(&inner), self.raceways.1.pushing(&outer)];
+            // Written out: a closure would be a function of its own, without the machine's registers.
+            found.pushing =
+                [self.law.pushing(inner.approach, inner.closing), self.law.pushing(outer.approach, outer.closing)];
             let (unit, around) = VI::on_element(&seen_inside, [present.all(1.0); P]);
             found.direction = [unit[0], around.unwrap_or(none)];
             found.around = inner_around.unwrap_or(none) + outer_around.unwrap_or(none);
@@ -158,7 +162,7 @@ impl<S: Wide, VI, VO, RI, RO> Smooth<'_, S, VI, VO, RI, RO> {
     }
 }
 
-impl<S: Wide, VI, VO, RI, RO> Smooth<'_, S, VI, VO, RI, RO> {
+impl<S: Wide, E, VI, VO, RI, RO> Smooth<'_, S, E, VI, VO, RI, RO> {
     /// Elements at these places, their absolute velocities being these.
     #[inline(always)]
     fn element<const P: usize, const GENERAL: bool>(

@@ -69,13 +69,22 @@ impl Model {
             let film = |side: usize| films.map(|films| films.squeeze[side].to(number));
             let laws = [Filmed { law, film: film(0) }, Filmed { law, film: film(1) }];
             let raceways = (Inside { clearance: number(clearance), law: laws[0] }, Outside { law: laws[1] });
-            let smooth =
-                Smooth { model: self, simd, cage, carrier, axial_gravity: 0.0, ahead: stage.ahead, views, raceways };
+            let smooth = Smooth {
+                model: self,
+                simd,
+                cage,
+                carrier,
+                axial_gravity: 0.0,
+                ahead: stage.ahead,
+                law,
+                views,
+                raceways,
+            };
             return smooth.all::<1, 2, RECORD, GENERAL>(stage.state, derivative, elements, contacts);
         }
         let raceways = (Inside { clearance: number(clearance), law }, Outside { law });
         let smooth =
-            Smooth { model: self, simd, cage, carrier, axial_gravity: 0.0, ahead: stage.ahead, views, raceways };
+            Smooth { model: self, simd, cage, carrier, axial_gravity: 0.0, ahead: stage.ahead, law, views, raceways };
         smooth.all::<1, 2, RECORD, GENERAL>(stage.state, derivative, elements, contacts)
     }
 }

@@ -19,11 +19,11 @@
 //! df/dx = f_x − f_b R_b⁻¹ R_x          b = (u, v)
 //! ```
 
-use super::Ball;
+use super::Spatial;
 use super::chained::{MOVING, STANDING};
 use super::contacts::{BallForces, BallMotion};
-use crate::contact::groove::{Spatial, plus};
 use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::element::{Element, views};
 use crate::dynamics::parameters::{COORDINATES, Model, RINGS, Space};
 use crate::dynamics::quasi_static::PathSearch;
 use crate::numerics::number::{Dual, Scalar};
@@ -85,7 +85,13 @@ impl Model {
     }
 
     /// R_r and R_z (N) of a ball on which the contacts exert these forces along e_r, e_t and z.
-    fn left_on_ball<T: Scalar>(&self, space: &Space, ball: &Ball<T>, omega: T, [f_r, _, f_z]: Spatial<T>) -> [T; 2] {
+    fn left_on_ball<T: Scalar>(
+        &self,
+        space: &Space,
+        ball: &Element<T, 2>,
+        omega: T,
+        [f_r, _, f_z]: Spatial<T>,
+    ) -> [T; 2] {
         let mass = T::Plain::from(self.element_mass);
         let [g_x, g_y] = [self.gravity.x, self.gravity.y].map(T::Plain::from);
         let body = ball.e_r[0] * g_x + ball.e_r[1] * g_y + ball.rho * omega * omega;
@@ -230,13 +236,14 @@ impl Model {
             let seeds = [Dual::variable(place[0], 0), Dual::variable(place[1], 1)];
             let (speed, none) = (Dual::constant(omega), Dual::constant(T::from(0.0)));
             let ball = seeded.ball_moving(self, seeds, [none; 2]);
+            let seen = (&views(&seeded.rings), &ball);
             let [inner, outer] = if at.stands() {
-                self.chained_on_ball::<_, STANDING, _>(space, cells, at, &ball, shortcuts)
+                self.chained_on_ball::<_, STANDING, _>(space, cells, at, seen, shortcuts)
             } else {
-                self.chained_on_ball::<_, MOVING, _>(space, cells, at, &ball, shortcuts)
+                self.chained_on_ball::<_, MOVING, _>(space, cells, at, seen, shortcuts)
             };
-            let force = plus(inner.force, outer.force);
-            (self.left_on_ball(space, &ball, speed, force), [ball.on_ring(&inner), ball.on_ring(&outer)])
+            let force = [0, 1, 2].map(|i: usize| inner.force[i] + outer.force[i]);
+            (self.left_on_ball(space, &ball, speed, force), [inner.on_ring(ball.e_r), outer.on_ring(ball.e_r)])
         };
         let rings = rings.as_flattened();
         let mut tangent = BallTangent {

@@ -1,11 +1,11 @@
 //! The contacts of one ball with both grooves, near defects or not, in single numbers with any derivatives.
 
-use super::{Ball, BallState, OnBall, Place, Seen, axis_of};
+use super::{BallState, OnBall, rates};
 use crate::contact::error::ContactError;
-use crate::contact::groove::{Axis, dot};
 use crate::contact::law::CompliantContact;
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Meeting, Near, Shortcuts};
+use crate::dynamics::element::{Aslant, Element, Meridian, Tilted, Touch, View, product, views};
 use crate::dynamics::parameters::{COORDINATES, Frame, Frames, Model, RingInSpace, SMOOTH, Space};
 use crate::numerics::number::{Dual, Scalar};
 
@@ -30,8 +30,9 @@ pub(in crate::dynamics) struct BallMotion<T: Scalar = f64> {
 /// A contact of a ball.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct BallContact<T: Scalar = f64> {
-    /// Where it meets the groove.
-    pub(in crate::dynamics) place: Place<T>,
+    /// How the ring sees the ball, and n away from its axis and along it.
+    pub(in crate::dynamics) seen: Aslant<T>,
+    pub(in crate::dynamics) normal: [T; 2],
     pub(in crate::dynamics) on_ball: OnBall<T>,
     /// Equivalent approach (m) and its rate (m/s).
     pub(in crate::dynamics) approach: T,
@@ -42,10 +43,33 @@ pub(in crate::dynamics) struct BallContact<T: Scalar = f64> {
     pub(in crate::dynamics) frame: Option<Frame>,
 }
 
+/// A contact of a ball in its ring's meridian plane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InMeridian<T> {
+    /// Force on the ball (N) away from the ring's axis and along it, and around it.
+    pub(super) force: [T; 2],
+    pub(super) around: Option<T>,
+    /// As [`BallContact`] has them.
+    normal: [T; 2],
+    approach: T,
+    rate: T,
+    magnitude: T,
+    frame: Option<Frame>,
+}
+
+/// Where a ball meets a groove.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::dynamics) struct Place<T> {
+    pub(super) at: Meridian<T, 2>,
+    /// Direction of the ball (rad), outside its own and inside that from the inner ring's axis, and its rate (rad/s);
+    /// known where the groove is not smooth.
+    pub(super) turn: [T; 2],
+}
+
 /// A ball with its contacts.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamics) struct BallForces<T: Scalar = f64> {
-    pub(in crate::dynamics) ball: Ball<T>,
+    pub(in crate::dynamics) ball: Element<T, 2>,
     pub(in crate::dynamics) contacts: [BallContact<T>; 2],
 }
 
@@ -58,14 +82,14 @@ impl<T: Scalar> BallForces<T> {
 
     /// Forces and moments on both rings.
     pub(in crate::dynamics) fn on_rings(&self) -> [[T; COORDINATES]; 2] {
-        self.contacts.map(|contact| self.ball.on_ring(&contact.on_ball))
+        self.contacts.map(|contact| contact.on_ball.on_ring(self.ball.e_r))
     }
 
     /// Torques on the bodies whose defects are under its contacts, about the axis of the ring at each contact (N m).
     pub(in crate::dynamics) fn torques(&self) -> impl Iterator<Item = (Frame, T)> {
-        let axes = [self.ball.seen.0.axis.direction, self.ball.seen.1.axis.direction];
-        let about = |(contact, axis): (BallContact<T>, _)| Some((contact.frame?, dot(contact.on_ball.moment, axis)));
-        self.contacts.into_iter().zip(axes).filter_map(about)
+        self.contacts
+            .into_iter()
+            .filter_map(|contact| Some((contact.frame?, product(contact.on_ball.moment, contact.seen.axis))))
     }
 }
 
@@ -109,28 +133,14 @@ impl<T: Scalar> BallMotion<T> {
     /// The ball at u, v, w and w_z.
     // A function for each kind of number, once: with derivatives it is long.
     #[inline(never)]
-    pub(in crate::dynamics) fn ball(&self, model: &Model, [u, v, w, w_z]: BallState<T>) -> Ball<T> {
-        let rates = Ball::rates(self.e_r, [w, w_z], &self.rings[1]);
-        self.ball_moving(model, [u, v], rates)
+    pub(in crate::dynamics) fn ball(&self, model: &Model, [u, v, w, w_z]: BallState<T>) -> Element<T, 2> {
+        self.ball_moving(model, [u, v], rates(self.e_r, [w, w_z], &self.rings[1]))
     }
 
     /// The ball at u and v, which change at these rates.
-    pub(in crate::dynamics) fn ball_moving(&self, model: &Model, at: [T; 2], rates: [T; 2]) -> Ball<T> {
-        let axes = [axis_of(&self.rings[0]), axis_of(&self.rings[1])];
-        self.ball_between(model, at, rates, &axes)
-    }
-
-    /// The same between rings of these axes.
-    #[inline(never)]
-    pub(in crate::dynamics) fn ball_between(
-        &self,
-        model: &Model,
-        at: [T; 2],
-        rates: [T; 2],
-        [inner, outer]: &[Axis<T>; 2],
-    ) -> Ball<T> {
-        let ([shaft, housing], radius) = (&self.rings, T::from(model.outer_centre_radius));
-        Ball::new(radius, self.e_r, self.omega, (at, rates), [shaft, housing], (inner, outer))
+    pub(in crate::dynamics) fn ball_moving(&self, model: &Model, at: [T; 2], rate: [T; 2]) -> Element<T, 2> {
+        let Self { e_r, omega, .. } = *self;
+        Element { e_r, at, rate, rho: T::from(model.outer_centre_radius) + at[0], omega }
     }
 }
 
@@ -141,7 +151,7 @@ impl Model {
         space: &Space,
         cells: [[u32; 2]; 2],
         at: &BallMotion<T>,
-        ball: &Ball<T>,
+        ball: &Element<T, 2>,
         shortcuts: &mut Shortcuts,
     ) -> BallForces<T> {
         let laws = [&self.inner.contact, &self.outer.contact];
@@ -155,16 +165,19 @@ impl Model {
         space: &Space,
         cells: [[u32; 2]; 2],
         at: &BallMotion<T>,
-        ball: &Ball<T>,
+        ball: &Element<T, 2>,
         shortcuts: &mut Shortcuts,
     ) -> BallForces<T> {
-        let [inner, outer] = [RacewaySide::Inner, RacewaySide::Outer];
-        let (seen_inside, seen_outside) = &ball.seen;
-        let contacts = [
-            self.ball_contact((laws[0], inner), space, cells[0], at, seen_inside, shortcuts),
-            self.ball_contact((laws[1], outer), space, cells[1], at, seen_outside, shortcuts),
-        ];
-        BallForces { ball: *ball, contacts }
+        let views = views(&at.rings);
+        let mut contact = |side: RacewaySide| {
+            let (law, view, cells) = (laws[side as usize], &views[side as usize], cells[side as usize]);
+            let (place, seen) = place_of(side, cells, at.angle, view, ball);
+            let found = self.ball_contact((law, side), space, cells, at, &place, shortcuts);
+            let InMeridian { force, around, normal, approach, rate, magnitude, frame } = found;
+            let on_ball = OnBall::of(&seen, force, around);
+            BallContact { seen, normal, on_ball, approach, rate, magnitude, frame }
+        };
+        BallForces { ball: *ball, contacts: [contact(RacewaySide::Inner), contact(RacewaySide::Outer)] }
     }
 
     /// One contact of a ball, in these cells.
@@ -175,40 +188,36 @@ impl Model {
         space: &Space,
         cells: [u32; 2],
         at: &BallMotion<T>,
-        seen: &Seen<T>,
+        place: &Place<T>,
         shortcuts: &mut Shortcuts,
-    ) -> BallContact<T> {
+    ) -> InMeridian<T> {
         let groove = &space.grooves[side as usize];
-        let place = Place::of(groove, seen);
-        let (contact, closing) = (&place.contact, place.closing());
+        let touch @ Touch { approach, closing, normal, sliding } = Touch::of(groove, &place.at);
         let damping = T::Plain::from(space.across_damping);
-        let is_open = groove.cosine(contact.meridian).value() <= 0.0;
+        let is_open = groove.cosine(normal).value() <= 0.0;
         if cells == [SMOOTH; 2] || is_open {
-            let force = law.law.force(contact.approach, closing);
-            let (on_ball, approach) = (place.presses(force, force, damping), contact.approach);
-            return BallContact { place, on_ball, approach, rate: closing, magnitude: force, frame: None };
+            let magnitude = law.law.force(approach, closing);
+            let force = touch.exerts(magnitude, magnitude * sliding * damping);
+            return InMeridian { force, around: None, normal, approach, rate: closing, magnitude, frame: None };
         }
-        let meeting = self.ball_meeting(side, cells, at, &place);
-        let turning = match side {
-            RacewaySide::Inner => contact.turning(place.velocity),
-            RacewaySide::Outer => at.omega,
-        };
-        let near = self.near_ball(side, space, &meeting, &place, &at.frames, shortcuts);
-        let beyond = || if at.tried { Near::smooth(contact.approach) } else { Near::unsolved() };
+        let meeting = self.ball_meeting(cells, at, place, approach);
+        let near = self.near_ball(side, space, &meeting, normal, &at.frames, shortcuts);
+        let beyond = || if at.tried { Near::smooth(approach) } else { Near::unsolved() };
         let (near, by_across) = near.unwrap_or_else(|_| (beyond(), None));
-        let mut rate = near.rate([closing, turning], &at.frames);
+        let mut rate = near.rate([closing, place.turn[1]], &at.frames);
         // ∂Δ/∂t: how far the contact goes across the groove as the ball moves along t, times ∂Δ/∂η.
-        let by_t = by_across.map(|by_across| by_across * groove.run_across(contact.approach));
+        let by_t = by_across.map(|by_across| by_across * groove.run_across(approach));
         if let Some(by_t) = by_t {
-            rate += by_t * dot(contact.across, place.velocity);
+            rate += by_t * sliding;
         }
         let found = near.force_at(law, None, rate);
-        let mut on_ball = place.exerts(found.force, found.magnitude, damping);
+        let mut against = found.magnitude * sliding * damping;
         if let Some(by_t) = by_t {
-            on_ball = place.exerts_across(on_ball, -(found.smooth * by_t));
+            against += found.smooth * by_t;
         }
-        let [approach, rate] = found.part;
-        BallContact { place, on_ball, approach, rate, magnitude: found.magnitude, frame: Some(near.frame) }
+        let ([along, around], [approach, rate], magnitude) = (found.force, found.part, found.magnitude);
+        let force = touch.exerts(along, against);
+        InMeridian { force, around: Some(around), normal, approach, rate, magnitude, frame: Some(near.frame) }
     }
 
     /// The surface near a defect, and ∂Δ/∂η of one that varies across the groove.
@@ -221,7 +230,7 @@ impl Model {
         side: RacewaySide,
         space: &Space,
         meeting: &Meeting<T>,
-        place: &Place<T>,
+        normal: [T; 2],
         frames: &Frames<T>,
         shortcuts: &mut Shortcuts,
     ) -> Result<(Near<T>, Option<T>), ContactError> {
@@ -229,25 +238,37 @@ impl Model {
             return self.near(side, meeting, frames, shortcuts).map(|near| (near, None));
         }
         let groove = &space.grooves[side as usize];
-        let across = groove.place_across(groove.angle(place.contact.meridian));
+        let across = groove.place_across(groove.angle(normal));
         let (near, by_across) = self.near_across(side, meeting, across, frames, shortcuts)?;
         Ok((near, Some(by_across)))
     }
 
-    /// Where a ball meets a defect: outside in its own direction, inside in that from the inner ring's axis.
-    pub(in crate::dynamics) fn ball_meeting<T: Scalar>(
+    /// Where a ball at this approach (m) meets a defect.
+    pub(super) fn ball_meeting<T: Scalar>(
         &self,
-        side: RacewaySide,
         cells: [u32; 2],
         at: &BallMotion<T>,
         place: &Place<T>,
+        approach: T,
     ) -> Meeting<T> {
-        let contact = &place.contact;
-        let direction = match side {
-            RacewaySide::Inner => at.angle + T::angle_of([contact.outwards[0], contact.outwards[1]]),
-            RacewaySide::Outer => at.angle,
-        };
-        let (u, distance) = (contact.approach, contact.distance);
-        Meeting { element: at.element, cells, u, direction, distance, curved: at.curved }
+        let distance = place.at.at[0] + T::from(self.outer_centre_radius);
+        Meeting { element: at.element, cells, u: approach, direction: place.turn[0], distance, curved: at.curved }
     }
+}
+
+/// Where a ball, at this `angle` (rad) about the outer ring's centre, meets the groove of a ring, and how it is seen.
+#[inline(always)]
+pub(super) fn place_of<T: Scalar>(
+    side: RacewaySide,
+    cells: [u32; 2],
+    angle: T,
+    view: &Tilted<T>,
+    ball: &Element<T, 2>,
+) -> (Place<T>, Aslant<T>) {
+    let (at, seen) = view.see(ball);
+    let turn = match side {
+        RacewaySide::Inner if cells != [SMOOTH; 2] => [angle + seen.lead(), view.turning_of(ball, &seen)],
+        _ => [angle, ball.omega],
+    };
+    (Place { at, turn }, seen)
 }

@@ -10,7 +10,7 @@
 //! outer ring stands.
 
 use super::OnBall;
-use super::contacts::BallForces;
+use super::contacts::{BallContact, BallForces};
 use crate::dynamics::parameters::{Model, Space};
 use crate::numerics::number::Scalar;
 
@@ -24,11 +24,14 @@ impl Model {
         let per_diameter = self.gyroscopic_couple(space, found, omega) * T::Plain::from(1.0 / diameter);
         for side in 0..2 {
             let share = per_diameter * T::Plain::from(space.couple_shares[side]);
-            let held = found.contacts[side].place.held(share, T::Plain::from(self.element_radius));
-            let OnBall { force, moment } = &mut found.contacts[side].on_ball;
+            let BallContact { seen, normal: [n_x, n_h], on_ball: OnBall { force, moment }, .. } =
+                &mut found.contacts[side];
+            let held = OnBall::of(seen, [-*n_h * share, *n_x * share], None);
+            // It acts at q − r n, and n × t = −t_φ.
+            let about = seen.around().map(|part| part * share * T::Plain::from(self.element_radius));
             for i in 0..3 {
                 force[i] += held.force[i];
-                moment[i] += held.moment[i];
+                moment[i] += held.moment[i] - about[i];
             }
         }
     }
@@ -37,7 +40,7 @@ impl Model {
     fn gyroscopic_couple<T: Scalar>(&self, space: &Space, of: &BallForces<T>, omega: T) -> T {
         let (plain, r) = (T::Plain::from, self.element_radius);
         let gamma = plain(r / space.pitch_radius);
-        let [[cos_i, sin_i], [inwards, along]] = [0, 1].map(|side: usize| of.contacts[side].place.contact.meridian);
+        let [[cos_i, sin_i], [inwards, along]] = [0, 1].map(|side: usize| of.contacts[side].normal);
         let (cos_o, sin_o) = (-inwards, -along);
         let one = T::from(1.0);
         let tan = sin_o / (cos_o + gamma);

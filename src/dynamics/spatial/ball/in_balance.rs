@@ -8,11 +8,11 @@
 //! The contacts' dampers, across the grooves too, act at the rates of that balance. To first order in what they exert,
 //! d on the ball, the ball lags by b₁ = −R_b⁻¹ d, which hands both contacts the rest; no contact is made to pull by it.
 
-use super::OnBall;
 use super::balance::solved;
 use super::contacts::{BallContact, BallForces, BallMotion};
-use crate::contact::groove::{Spatial, dot};
+use super::{OnBall, Spatial};
 use crate::dynamics::contacts::{Forces, Shortcuts};
+use crate::dynamics::element::product as dot;
 use crate::dynamics::parameters::{Model, RINGS, RingInSpace, SMOOTH, Space, Stage};
 use crate::numerics::number::{Dual, Scalar};
 use crate::numerics::plane::{Vector, turned};
@@ -130,11 +130,12 @@ impl Model {
                 force: part(of.on_ball.force, change[side][0]),
                 moment: part(of.on_ball.moment, change[side][1]),
             };
-            let place = damped.contacts[side].place;
-            let contact = &place.contact;
-            let [along, around] = [dot(on_ball.force, contact.normal), dot(on_ball.force, contact.around)];
+            let at = damped.contacts[side];
+            let [along, around] =
+                [at.seen.in_meridian(at.normal), at.seen.around()].map(|part| dot(on_ball.force, part));
             let magnitude = (along * along + around * around).sqrt();
-            BallContact { place, on_ball, approach: of.approach.value, rate: T::from(0.0), magnitude, frame: of.frame }
+            let (approach, rate) = (of.approach.value, T::from(0.0));
+            BallContact { on_ball, approach, rate, magnitude, frame: of.frame, ..at }
         });
         BallInBalance { place, rates, forces: BallForces { ball, contacts } }
     }

@@ -1,8 +1,9 @@
 //! Balls as an instant has them, and what is kept of their contacts.
 
-use super::contacts::{BallForces, BallMotion};
+use super::contacts::{BallForces, BallMotion, place_of};
 use crate::contact::rolling::RacewaySide;
 use crate::dynamics::contacts::{Forces, Record, Shortcuts, UnsolvedContact};
+use crate::dynamics::element::{Touch, views};
 use crate::dynamics::parameters::{FramedKinematics, Model, RingInSpace, SMOOTH, Stage};
 use crate::numerics::lanes::WIDEST;
 use crate::numerics::plane::turned_by;
@@ -81,12 +82,14 @@ impl Model {
         let space = self.space.as_ref()?;
         let mut unsolved = None;
         for side in [RacewaySide::Inner, RacewaySide::Outer] {
-            let place = &found.contacts[side as usize].place;
-            let meeting = self.ball_meeting(side, cells[side as usize], at, place);
-            if cells[side as usize] == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
+            let cells = cells[side as usize];
+            let (place, _) = place_of(side, cells, at.angle, &views(&at.rings)[side as usize], &found.ball);
+            let touch = Touch::of(&space.grooves[side as usize], &place.at);
+            let meeting = self.ball_meeting(cells, at, &place, touch.approach);
+            if cells == [SMOOTH; 2] || !(meeting.u + at.angle).is_finite() {
                 continue;
             }
-            if let Err(cause) = self.near_ball(side, space, &meeting, place, &at.frames, shortcuts) {
+            if let Err(cause) = self.near_ball(side, space, &meeting, touch.normal, &at.frames, shortcuts) {
                 let angle = self.angle_from_defect(side, &meeting, &at.frames);
                 let [inner, outer] = &at.rings;
                 let offset = [0, 1].map(|k| outer.position[k] - inner.position[k]);
@@ -108,9 +111,9 @@ impl BallForces {
         (record.inner[j], record.outer[j], record.outer_tangential[j]) = (inner.magnitude, outer.magnitude, around);
         (record.inner_approach[j], record.outer_approach[j]) = (inner.approach, outer.approach);
         (record.inner_pushing[j], record.outer_pushing[j]) = (pushing(0), pushing(1));
-        record.path_rate[j] = self.ball.rates[0];
+        record.path_rate[j] = self.ball.rate[0];
         for side in 0..2 {
-            let [along_e, along_a] = self.contacts[side].place.contact.meridian;
+            let [along_e, along_a] = self.contacts[side].normal;
             (record.meridians[2 * side][j], record.meridians[2 * side + 1][j]) = (along_e, along_a);
         }
     }

@@ -1,8 +1,8 @@
 //! The Jacobian in the plane: an element's state (u, w), by the rings' four coordinates, and their velocities.
 
-use super::arrow::{ArrowJacobian, ElementToFirstOrder};
-use super::small_change::Changing;
 use crate::dynamics::contacts::{ElementMotion, Shortcuts};
+use crate::dynamics::derivatives::arrow::{ArrowJacobian, ElementToFirstOrder};
+use crate::dynamics::derivatives::small_change::Changing;
 use crate::dynamics::parameters::{Cells, Excitation, FramedKinematics, Model, PLANE_RINGS, PathMotion};
 use crate::dynamics::quasi_static::{RingJacobian, add_by_offset, stacked};
 use crate::numerics::lanes::{Kernel, Wide, dispatch};

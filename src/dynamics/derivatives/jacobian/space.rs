@@ -1,12 +1,14 @@
 //! The Jacobian in space: a ball's state (u, v, w, w_z), by the rings' ten coordinates and their velocities.
 
-use super::arrow::{ArrowJacobian, ElementToFirstOrder};
-use crate::contact::groove::{Spatial, plus};
+use super::smooth_balls::SmoothBalls;
 use crate::dynamics::contacts::Shortcuts;
+use crate::dynamics::derivatives::arrow::{ArrowJacobian, ElementToFirstOrder};
+use crate::dynamics::element::views;
 use crate::dynamics::parameters::{
-    COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, SPATIAL_BODIES, Space,
+    COORDINATES, Cells, Excitation, FramedKinematics, Model, RINGS, RingInSpace, SMOOTH, SPATIAL_BODIES, Space,
 };
-use crate::dynamics::spatial::{Ball, BallMotion, MOVING, axis_of};
+use crate::dynamics::spatial::{BallMotion, MOVING, accelerations, rates};
+use crate::numerics::lanes::dispatch;
 use crate::numerics::number::Dual;
 
 /// Derivatives: by u, v, w and w_z, by the rings' positions, by their velocities.
@@ -35,27 +37,40 @@ impl Model {
             }
             return;
         }
+        let outer_tilts = still[1].position[3..] != [0.0; 2] || still[1].velocity[3..] != [0.0; 2];
+        let is_smooth = |j: usize| !outer_tilts && self.cells_of(cells, j) == [[SMOOTH; 2]; 2];
+        dispatch(SmoothBalls {
+            model: self,
+            space,
+            now: &now,
+            rings: &still,
+            state,
+            is_smooth: &is_smooth,
+            inverse_inertia: &inverse_inertia,
+            jacobian,
+            shortcuts,
+        });
         let variable =
             |of: &[f64; COORDINATES], first: usize| std::array::from_fn(|k| ByState::variable(of[k], first + k));
         let rings = [0, 1].map(|ring: usize| RingInSpace {
             position: variable(&still[ring].position, 4 + COORDINATES * ring),
             velocity: variable(&still[ring].velocity, 4 + RINGS + COORDINATES * ring),
         });
-        let axes = [axis_of(&rings[0]), axis_of(&rings[1])];
-        let gravity: Spatial<ByState> = [self.gravity.x, self.gravity.y, space.gravity].map(ByState::constant);
+        let views = views(&rings);
+        let gravity = [self.gravity.x, self.gravity.y, space.gravity].map(ByState::constant);
         let [[_, v], [w, w_z]] = jacobian.starts;
-        for j in 0..self.element_count {
+        for j in (0..self.element_count).filter(|&j| !is_smooth(j)) {
             let (at, _) = self.ball_motion(j, &now, &still, shortcuts);
             let moving = BallMotion { rings, ..at.lifted() };
             let slots = [j, v + j, w + j, w_z + j];
             let [u, v, w, w_z] = [0, 1, 2, 3].map(|k: usize| ByState::variable(state[slots[k]], k));
-            let rates = Ball::rates(moving.e_r, [w, w_z], &rings[1]);
-            let ball = moving.ball_between(self, [u, v], rates, &axes);
+            let rates = rates(moving.e_r, [w, w_z], &rings[1]);
+            let ball = moving.ball_moving(self, [u, v], rates);
             let in_cells = self.cells_of(cells, j);
-            let [inner, outer] = self.chained_on_ball::<_, MOVING, _>(space, in_cells, &at, &ball, shortcuts);
-            let [f_r, _, f_z] = plus(inner.force, outer.force);
-            let accelerations = ball.accelerations([f_r, f_z], self.per_mass_of(j), gravity);
-            let [shaft, housing] = [ball.on_ring(&inner), ball.on_ring(&outer)];
+            let [inner, outer] = self.chained_on_ball::<_, MOVING, _>(space, in_cells, &at, (&views, &ball), shortcuts);
+            let total = [0, 2].map(|i: usize| inner.force[i] + outer.force[i]);
+            let accelerations = accelerations(&ball, &rings[1], total, self.per_mass_of(j), gravity);
+            let [shaft, housing] = [inner.on_ring(ball.e_r), outer.on_ring(ball.e_r)];
             let on_rings = std::array::from_fn(|i| if i < COORDINATES { shaft[i] } else { housing[i - COORDINATES] });
             jacobian.put(j, &ElementToFirstOrder { rates, accelerations, on_rings }, &inverse_inertia);
         }

@@ -1,9 +1,13 @@
 //! Exact Jacobian of the right-hand side, damping included; and (s − J) x = b. Of elements in balance at every instant
 //! the change of damping is left out.
 //!
-//! All derivatives are those of the equations of motion over dual numbers: in the plane (`plane_jacobian`), in
-//! space (`spatial_jacobian`). They are those of the branch that the state is in; at the onset of a contact there
+//! All derivatives are those of the equations of motion over dual numbers: in the plane ([`plane`]), in
+//! space ([`space`]). They are those of the branch that the state is in; at the onset of a contact there
 //! are two.
+
+mod plane;
+mod smooth_balls;
+mod space;
 
 use super::arrow::ArrowJacobian;
 use super::elimination::Elimination;
