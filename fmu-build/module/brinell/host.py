@@ -173,24 +173,27 @@ class Bearing(Instance):
         self.write([named("", axis) for axis in self.axes], position)
         return self.read([named("force", axis) for axis in self.axes])
 
-    def rest(self, load):
-        """During initialization: moves the shaft to where the bearing carries `load` and gives that position.
+    def rest(self, load, tilt=()):
+        """During initialization: moves the shaft to where the bearing carries `load` and gives that position. With a `tilt`
+        about x and y the shaft keeps that, whatever moment it takes, and `load` is along x, y and z.
 
         Newton's method by differences, from a shaft that touches nothing yet. A step is at most twice as long as the one
         before and is halved until what the load leaves has not grown: on the way lies a place of which the FMU knows no
         force, beyond its contact map or without a balance of its elements, and a spall's edge bends the force.
         """
         load = np.asarray(load, dtype=float)
-        if len(load) != len(self.axes) or not np.linalg.norm(load) > 0.0:
-            raise ValueError(f"{self.name}: a load of {load}: as many numbers as it has axes, {', '.join(self.axes)}")
+        free, tilt = self.axes[: len(self.axes) - len(tilt)], np.asarray(tilt, dtype=float)
+        if len(load) != len(free) or not np.linalg.norm(load) > 0.0:
+            raise ValueError(f"{self.name}: a load of {load}: as many numbers as it has axes, {', '.join(free)}")
         # Tilts count by what they move at a bearing's radius, so that all are lengths and forces.
-        reach = np.where([axis.startswith("tilt") for axis in self.axes], RADIUS, 1.0)
+        reach = np.where([axis.startswith("tilt") for axis in free], RADIUS, 1.0)
+        whole = lambda place: np.append(place / reach, tilt)  # noqa: E731
         why = ""
 
         def left(place):
             nonlocal why
             try:
-                return (self.force_at(place / reach) + load) / reach
+                return (self.force_at(whole(place))[: len(load)] + load) / reach
             except RuntimeError as error:
                 why = f": {error}"
                 self.restore()
@@ -201,8 +204,8 @@ class Bearing(Instance):
         force = left(place)
         for _ in range(STEPS if force is not None else 0):
             if np.linalg.norm(force) <= wanted:
-                self.force_at(place / reach)
-                return place / reach
+                self.force_at(whole(place))
+                return whole(place)
             beside = [left(place + moved) for moved in DIFFERENCE * np.eye(len(load))]
             if any(one is None for one in beside):
                 break
@@ -223,8 +226,8 @@ class Bearing(Instance):
             break
         # Rounding: the FMU's own balance is as good.
         if force is not None and np.linalg.norm(force) <= 1e3 * wanted:
-            self.force_at(place / reach)
-            return place / reach
+            self.force_at(whole(place))
+            return whole(place)
         over = [] if force is None else [f"{x:.3g}" for x in force * reach]
         raise RuntimeError(f"{self.name}: no position carries {load}; at {place / reach} {over} is left{why}")
 

@@ -12,8 +12,9 @@
 shaft the host moves. There may be one or many, and other bearings of ROSS's beside them or none. `brinell new NAME
 --hosted` writes such a scene.
 
-Everything is counted from static rest: z = y − y₀. Bearings are aligned so that each carries at rest what it would if
-none yielded. A linear bearing with the FMU's stiffness K and damping C at rest stands in for it in the rotor's
+Everything is counted from static rest: z = y − y₀. Bearings are aligned: their housings have one axis, and each is set
+so that it carries at rest what it would if none yielded. The shaft bends under its weight and tilts their inner rings,
+against their moments. A linear bearing with the FMU's stiffness K and damping C at rest stands in for it in the rotor's
 matrices, and what the FMU says beyond it goes to the right-hand side:
     d = F − F₀ + K z + C ż        at the motion that the FMU was told
 so that a difference between the motion told and the motion found is answered by the stand-in, at once. Without it a
@@ -71,13 +72,15 @@ with silence(), warnings.catch_warnings():
 from . import build
 from .host import Bearing
 
-__all__ = ["Response", "element", "simulate", "unbalance"]
+__all__ = ["Response", "element", "housing", "simulate", "unbalance"]
 
 GRAVITY = 9.81
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6  # weights of start, middle and end in a mean
 # Between matrices propagated at speeds so far apart (rad/s) those of a run-up are interpolated. Gyroscopic terms are
 # at most twice the speed: over a step of 50 µs the interpolation is off by (2·10·5e-5)²/8 = 1.3e-7 of the state.
 APART = 10.0
+# Of the search for rest: most steps, and how far slopes at bearings may be off (rad): 0.02 nm at a bearing's radius.
+REST_STEPS, SLOPE = 50, 1e-9
 
 # Of times [s], the shaft's angle [rad], speed [rad/s] and acceleration [rad/s²] then; gives x and y [N], one column per
 # time.
@@ -143,8 +146,9 @@ def simulate(
     communication step are in docs/how-to/step.md; `passes`: at the top of this file.
 
     With bearings of three or five degrees of freedom the rotor, one of six a node, moves along its axis too, and tilts
-    their inner rings; loads and forces may have a z. Bearings are mounted so that they carry no moment at rest, and
-    `preloads` [N] by their nodes are what the shaft pushes each with along z beside its share of the loads: of a pair
+    their inner rings; loads and forces may have a z. Housings are mounted aligned, so that a bearing of five holds the
+    shaft's slope at rest by its moment, and `preloads` [N] by their nodes are what the shaft pushes each with along z
+    beside its share of the loads: of a pair
     back to back 150 and -150. The shaft's torsion is left out.
     """
     loads, forces, speed = dict(loads or {}), dict(forces or {}), Speed(speed)
@@ -172,11 +176,17 @@ def element(scene, n, speeds, load, *, n_link=None, cage_angles=8, **more):
 
     `load` is along x and y; of a scene with three degrees of freedom along z too. Stiffness and damping are between the
     rings, elements in balance, means over `cage_angles` positions of the cage within the pitch of an element. ROSS's
-    element has k_zz and no other coupling of z. `n_link` is the node of a housing that may move; without it the housing
-    stands still. `more` goes to ROSS's element.
+    element has k_zz and no other coupling of z. `n_link` is the node of a housing that may move, of which `housing` makes
+    mass and support; without it the housing stands still, and a warning says so where the scene's moves. `more` goes to
+    ROSS's element.
     """
     speeds = np.atleast_1d(np.asarray(speeds, dtype=float))
     with fmus_of({n: scene}) as fmus:
+        if n_link is None and (support := support_of(fmus[n], speeds[0])):
+            warnings.warn(
+                f"element: the housing of {scene} is left out, {support['mass']:.3g} kg on "
+                f"{support['stiffness']:.3g} N/m; give n_link, and brinell.ross.housing to the rotor", stacklevel=2,
+            )  # fmt: skip
         found = np.array([linear(fmus[n], f"bearing at node {n}", speed, load, cage_angles) for speed in speeds])
     axes = list(enumerate("xyz"[: len(load)]))
     table = {f"{kind}{a}{b}": found[:, k, i, j] for k, kind in enumerate("kc") for i, a in axes for j, b in axes
@@ -184,6 +194,26 @@ def element(scene, n, speeds, load, *, n_link=None, cage_angles=8, **more):
     if len(speeds) == 1:
         return ross.BearingElement(n=n, n_link=n_link, **{name: row[0] for name, row in table.items()}, **more)
     return ross.BearingElement(n=n, n_link=n_link, frequency=speeds, **table, **more)
+
+
+def housing(scene, n):
+    """The housing of a scene at node `n`, to which `element` is linked by `n_link`: its mass, and its support to the
+    ground, for a rotor's `point_mass_elements` and `bearing_elements`."""
+    with fmus_of({n: scene}) as fmus:
+        support = support_of(fmus[n], 0.0)
+    if not support:
+        raise ValueError(f'{scene}: its housing does not move; it needs motion = "internal" in [housing]')
+    k, c = support["stiffness"], support["damping"]
+    return ross.PointMass(n=n, m=support["mass"]), ross.BearingElement(n=n, kxx=k, kyy=k, cxx=c, cyy=c)
+
+
+def support_of(fmu, speed):
+    """Mass [kg], stiffness [N/m] and damping [N s/m] of the housing, where it moves inside the FMU."""
+    bearing = Bearing(fmu, "housing", {"shaft.speed": speed})
+    names = [name for name in ("mass", "stiffness", "damping") if f"housing.{name}" in bearing.reference]
+    found = dict(zip(names, bearing.read([f"housing.{name}" for name in names]))) if names else {}
+    bearing.close()
+    return found
 
 
 def linear(fmu, name, speed, load, cage_angles):
@@ -275,11 +305,10 @@ class Coupled:
             ends = np.cumsum([0, *map(len, self.axes)])
             self.own = [slice(begin, end) for begin, end in zip(ends, ends[1:])]
             self.in_space = max(map(len, self.axes)) > 2
-            self.load = self.carried(loads, speed, preloads or {})
-            loads = [self.load[own] for own in self.own]
-            positions = [fmu.rest(load) for fmu, load in zip(self.fmus, loads)]
-            self.rest_position = np.concatenate(positions)
+            self.rest_position = self.at_rest(self.statics(loads, speed), preloads or {})
+            positions = [self.rest_position[own] for own in self.own]
             self.rest_force = np.concatenate([fmu.force_at(position) for fmu, position in zip(self.fmus, positions)])
+            self.load = -self.rest_force
             self.stiffness, self.damping = np.zeros((2, ends[-1], ends[-1]))
             for own, fmu in zip(self.own, self.fmus):
                 self.stiffness[own, own], self.damping[own, own] = fmu.linear()
@@ -297,25 +326,55 @@ class Coupled:
     def system(self, speed, acceleration=0.0):
         return Lateral(self.rotor, speed, acceleration, self.in_space)
 
-    def carried(self, loads, speed, preloads):
-        """What the rotor's weight and the loads ask of bearings that hardly yield, but do when tilted, and the preloads
-        [N]."""
+    def statics(self, loads, speed):
+        """What the rotor's weight and the loads ask of bearings that hardly yield [N], and its slopes there, by the
+        bearings' moments on the shaft [N m], of each in turn."""
         hold = 1e9
         system = self.system(speed)
-        held = [axes[:3] for axes in self.axes]
-        at = system.nodes(self.nodes, held)
+        held, tilted = [axes[:3] for axes in self.axes], [axes[3:] for axes in self.axes]
+        at, slopes = system.nodes(self.nodes, held), system.nodes(self.nodes, tilted)
         system.K[at, at] += hold
         up = np.zeros(system.size)
         up[[system.at(node)[1] for node in range(len(self.rotor.nodes))]] = 1.0
         weight = -GRAVITY * system.M @ up
         for node, load in loads.items():
             weight[system.at(node, ("x", "y", "z")[: len(load)])] += load
-        found = hold * np.linalg.solve(system.K, weight)
-        return np.concatenate([
-            np.pad(found[system.at(node, axes[:3])], (0, len(axes[3:])))
-            + [preloads.get(node, 0.0) if axis == "z" else 0.0 for axis in axes]
-            for node, axes in zip(self.nodes, self.axes)
-        ])
+        yields = np.linalg.solve(system.K, np.column_stack([weight, np.eye(system.size)[:, slopes]]))
+
+        def found(moments):
+            there = yields @ np.append(1.0, moments)
+            return hold * there[at], there[slopes]
+
+        return found
+
+    def at_rest(self, statics, preloads):
+        """Positions of the inner rings at rest in housings that are aligned.
+
+        The shaft's slopes at the bearings and their moments are found together: by Newton's method, with each bearing's
+        tangent stiffness about its tilt while it carries its load.
+        """
+        tilts = [slice(2 * k, 2 * k + 2) for k in np.cumsum([0] + [len(axes) == 5 for axes in self.axes[:-1]])]
+        count = 2 * sum(len(axes) == 5 for axes in self.axes)
+        moments, tilt = np.zeros(count), np.zeros(count)
+        by_moment = np.column_stack([statics(one)[1] - statics(np.zeros(count))[1] for one in np.eye(count)] or [tilt])
+        for _ in range(REST_STEPS):
+            load, slope = statics(moments)
+            positions, begin, yields = [], 0, np.zeros((count, count))
+            for node, axes, fmu, of in zip(self.nodes, self.axes, self.fmus, tilts):
+                straight = load[begin : begin + len(axes[:3])]
+                begin += len(straight)
+                straight = straight + [preloads.get(node, 0.0) if axis == "z" else 0.0 for axis in axes[:3]]
+                positions.append(fmu.rest(straight, tilt[of] if len(axes) == 5 else ()))
+                if len(axes) == 5:
+                    moments[of] = fmu.force_at(positions[-1])[3:]
+                    k = fmu.stiffness()
+                    yields[of, of] = k[3:, 3:] - k[3:, :3] @ np.linalg.solve(k[:3, :3], k[:3, 3:])
+            # Slopes under these moments, less the tilts at which they were taken.
+            left = statics(moments)[1] - tilt
+            if count == 0 or abs(left).max() < SLOPE:
+                return np.concatenate(positions)
+            tilt = tilt + np.linalg.solve(np.eye(count) + by_moment @ yields, left)
+        raise RuntimeError(f"no rest: the slopes at the bearings are {left} rad off after {REST_STEPS} steps")
 
     def tell(self, displacement, velocity, acceleration, speed, h):
         """Steps the FMUs; their forces beyond the stand-ins': mean over the step, and at the end."""
