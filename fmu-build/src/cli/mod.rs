@@ -3,9 +3,9 @@
 mod options;
 mod shipped_options;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{catalogue, check, contact, demo, modes, new_scene, scenes, schema, size, stiffness};
@@ -150,22 +150,40 @@ fn build(project: &Project, options: Build) -> Result<()> {
         }
         Ok(model)
     };
-    // Scenes first: a typing error should not wait for a compiler.
-    let models = options.scenes.iter().map(read).collect::<Result<Vec<_>>>()?;
-    let library = Library::obtain(project, &options.library.or_environment())?;
-    for line in library.describe() {
-        println!("{line}");
+    // Scenes first: a typing error should not wait for a compiler. One that cannot be built does not keep others from it.
+    let mut refused = Vec::new();
+    let mut models = Vec::new();
+    for path in &options.scenes {
+        read(path).map_or_else(|error| refused.push(error), |model| models.push(model));
     }
-    let folder = options.output.unwrap_or_else(|| project.results("fmu"));
-    for model in &models {
-        if let Some(reference) = &model.reference {
-            for path in reference.write(&folder)? {
-                println!("{}", path.display());
-            }
+    if !models.is_empty() {
+        let library = Library::obtain(project, &options.library.or_environment())?;
+        for line in library.describe() {
+            println!("{line}");
         }
-        let path = fmu::write(model, &library, interface, &folder)?;
+        let folder = options.output.unwrap_or_else(|| project.results("fmu"));
+        for model in &models {
+            let written = pack(model, &library, interface, &folder);
+            refused.extend(written.err());
+        }
+    }
+    match (refused.pop(), options.scenes.len()) {
+        (None, _) => Ok(()),
+        (Some(only), 1) => Err(only),
+        (Some(last), count) => {
+            refused.push(last);
+            let why: Vec<_> = refused.iter().map(|error| format!("{error:#}")).collect();
+            bail!("{} of {count} scenes were not built:\n{}", why.len(), why.join("\n"))
+        }
+    }
+}
+
+/// Writes a model's FMU, and its reference results if it has any.
+fn pack(model: &Model, library: &Library, interface: Interface, folder: &Path) -> Result<()> {
+    for path in model.reference.iter().map(|reference| reference.write(folder)).collect::<Result<Vec<_>>>()?.concat() {
         println!("{}", path.display());
     }
+    println!("{}", fmu::write(model, library, interface, folder)?.display());
     Ok(())
 }
 

@@ -33,6 +33,19 @@ fn a_library_that_cannot_be_loaded_is_said_once() {
 }
 
 #[test]
+fn scenes_that_cannot_be_built_are_told_and_do_not_keep_others_from_it() {
+    let folder = common::folder("some-scenes");
+    fs::write(folder.join("so"), "any file").unwrap();
+    fs::write(folder.join("bad.toml"), "name = \"bad\"").unwrap();
+    let build = ["build", "bad.toml", "6205-healthy", "missing.toml", "6205-hosted", "--library", "so", "-o", "."];
+    let said = refused(brinell(&build).current_dir(&folder));
+    for words in ["2 of 4 scenes were not built", "bad.toml", "missing.toml"] {
+        once(&said, words);
+    }
+    assert!(["6205-healthy.fmu", "6205-hosted.fmu"].iter().all(|name| folder.join(name).is_file()));
+}
+
+#[test]
 fn a_new_scene_runs_as_it_is_and_is_not_written_over() {
     let folder = common::folder("new-scene");
     let new = ["new", "mine", "--bearing", "6206-2RS", "--defect", "inner:1.2mm"];
