@@ -26,7 +26,7 @@ enum Command {
     Report(Report),
     /// Computes every claim of the paper anew: docs/evidence/validation.md and its figures
     Validate(Validate),
-    /// Judges recordings of known machines, whole, in halves and by the second, beside a plain script: tables as Markdown
+    /// Judges recordings of known machines, whole, in halves and by the second, beside a plain script
     Diagnose(Diagnose),
     /// Makes what users install, for all platforms: wheels and archives of the program with the libraries inside
     Dist(Dist),

@@ -7,4 +7,3 @@ mod frequency_response;
 mod length;
 #[path = "../support/machine.rs"]
 mod machine;
-mod recordings;

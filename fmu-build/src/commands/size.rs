@@ -10,8 +10,8 @@ use anyhow::{Result, bail};
 use brinell::scene::{Bearing, Scene};
 use brinell::simulation::setup::with_operating_angle;
 use brinell_analysis::recording::{ENDINGS, Recording, Source, Speed, Stated, TextFormat};
-use brinell_analysis::sizing::{Figure, Grade, RecordingReport, Report, Standing, size_with};
-use brinell_analysis::spectra::{Fault, PLAUSIBLE, find_speed};
+use brinell_analysis::sizing::{Figure, RecordingReport, Report, Standing, size_with};
+use brinell_analysis::spectra::{Fault, find_speed};
 use brinell_scene_file::UnitQuestion;
 use clap::Args;
 
@@ -34,16 +34,16 @@ pub enum ShaftSpeed {
     Sought([f64; 2]),
 }
 
-/// A speed as it is typed: `25`, `1500rpm`, `20..30`, `auto`.
+/// A speed as it is typed: `25`, `1500rpm`, `20..30`, `20..30Hz`, `1200..1800rpm`.
 pub(crate) fn shaft_speed(text: &str) -> Result<ShaftSpeed, String> {
-    if text == "auto" {
-        return Ok(ShaftSpeed::Sought(PLAUSIBLE));
-    }
     let Some((low, high)) = text.split_once("..") else {
-        let wanted = |why| format!("{why}, limits as in 20..30, or auto");
+        let wanted = |why| format!("{why}, or limits as in 20..30");
         return speed(text).map(|hertz| ShaftSpeed::Stated(Speed::Constant(hertz))).map_err(wanted);
     };
-    Ok(ShaftSpeed::Sought([speed(low)?, speed(high)?]))
+    // A unit behind the second is of both.
+    let digits = |c: char| c.is_ascii_digit() || c == '.';
+    let unit = if low.ends_with(digits) { high.trim_start_matches(digits) } else { "" };
+    Ok(ShaftSpeed::Sought([speed(&format!("{low}{unit}"))?, speed(high)?]))
 }
 
 /// Options of `size`.
@@ -67,10 +67,10 @@ pub struct Size {
     #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = rate)]
     rate: Option<f64>,
     /// Shaft speed in hertz, or in rpm as in 1797rpm: one for all recordings, or one for each, separated by commas;
-    /// LOW..HIGH seeks it by the shaft's own lines, and auto from 5 to 60 Hz
+    /// LOW..HIGH, as in 20..30 or 1200..1800rpm, seeks it by the shaft's own lines; HIGH below 1.9 times LOW
     #[arg(
         long,
-        value_name = "HZ|LOW..HIGH|auto",
+        value_name = "HZ|LOW..HIGH",
         value_delimiter = ',',
         group = "shaft",
         allow_negative_numbers = true,
@@ -116,6 +116,19 @@ impl Size {
             Some(path) => Ok(read_scene(path)?.1),
             None => new_scene::without_rig(self.bearing.as_deref().unwrap_or_default(), self.load),
         }
+    }
+
+    /// What nobody gave.
+    fn assumed(&self, scene: &Scene) -> Vec<String> {
+        let mut assumed = Vec::new();
+        if self.bearing.is_some() && self.load.is_none() {
+            assumed.push(format!("load {:.0} N, 5 % of the static rating (--load)", scene.shaft.load[1].abs()));
+        }
+        if self.bearing.is_some() {
+            let clearance = 1e6 * scene.bearing.radial_clearance;
+            assumed.push(format!("radial clearance {} um and dimensions of the catalogue", digits(clearance)));
+        }
+        assumed
     }
 
     /// Speed of the shaft in all recordings, or in each.
@@ -165,7 +178,11 @@ pub fn command(project: &Project, options: &Size) -> Result<()> {
     let mut report = report?;
     // Whoever reads the answer alone is to know that it may be of another speed.
     report.reason.extend(asked.iter().map(|asked| format!("; {asked}")));
-    eprintln!("{}: {}", found(&report), report.reason);
+    report.assumed = options.assumed(&scene);
+    eprintln!("{}", found(&report));
+    for line in basis(&report) {
+        eprintln!("  {line}");
+    }
     println!("{}", serde_json::to_string_pretty(&report)?);
     std::io::stdout().flush()?;
     let stems = write(&report, &options.drawn.folder(project, "size"))?;
@@ -202,7 +219,7 @@ fn read(options: &Size, speeds: &[ShaftSpeed], bearing: &Bearing) -> Result<Vec<
         // Until it is found a speed that can be stands in for it: limits are judged where it is sought.
         let stated = match speed {
             ShaftSpeed::Stated(speed) => speed.clone(),
-            ShaftSpeed::Sought(_) => Speed::Constant(PLAUSIBLE[0]),
+            ShaftSpeed::Sought(_) => Speed::Constant(1.0),
         };
         let source = Source { rate: options.rate, speed: stated, signal: options.channel.clone(), text };
         let recording = Recording::read(path, &source)?;
@@ -237,44 +254,32 @@ fn tell(recording: &Recording) {
     }
 }
 
-/// Which part, how long, how far to rely on it.
+/// Which part, how plainly, how long, how far to rely on it: one line.
 fn found(report: &Report) -> String {
-    let part = part(report.fault);
-    match (report.length_mm, report.uncertainty_mm, report.length_deg, report.standing) {
-        (Some(length), Some(uncertainty), Some(degrees), Some(standing)) => {
-            let standing = if standing == Standing::Firm { "firm" } else { "provisional" };
-            format!("{part}: {length:.2} ± {uncertainty:.2} mm ({degrees:.2} degrees), {standing}")
-        }
-        _ => format!("{part}, {}", at_least(report.at_least_deg)),
+    let standing = match report.standing {
+        Some(Standing::Firm) => ", firm",
+        Some(Standing::Provisional) => ", provisional",
+        None => "",
+    };
+    let part = size_report::damaged(report.fault, report.grade);
+    if report.fault == Fault::None {
+        return part;
     }
+    format!("{part}: {}{standing}", size_report::length(report))
 }
 
-fn at_least(degrees: Option<f64>) -> String {
-    degrees.map_or("no length".to_owned(), |degrees| format!("at least {degrees:.2} degrees"))
+/// What the answer rests on, what was assumed and what to do next: lines below it.
+fn basis(report: &Report) -> Vec<String> {
+    let mut lines: Vec<String> = report.reason.split("; ").map(str::to_owned).collect();
+    lines.extend(report.assumed.iter().map(|assumed| format!("assumed: {assumed}")));
+    lines.push(format!("next: {}", report.next));
+    lines
 }
 
 /// What one of several recordings gave.
 fn of_recording(done: &RecordingReport) -> String {
-    let part = match done.grade {
-        Grade::None => part(done.fault).to_owned(),
-        grade => format!("{}, {}", part(done.fault), grade.name()),
-    };
-    match (done.length_deg, done.uncertainty_deg, done.at_least_deg) {
-        (Some(length), Some(uncertainty), _) => format!("{part}: {length:.2} ± {uncertainty:.2} degrees"),
-        (.., least) => {
-            format!("{part}, {}: {}", at_least(least), done.reason.as_deref().unwrap_or("no reason given"))
-        }
-    }
-}
-
-fn part(fault: Fault) -> &'static str {
-    match fault {
-        Fault::Outer => "outer raceway",
-        Fault::Inner => "inner raceway",
-        Fault::Element => "rolling element",
-        Fault::Undecided => "undecided which part",
-        Fault::None => "no fault found",
-    }
+    let why = done.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    format!("{}: {}{why}", size_report::damaged(done.fault, done.grade), size_report::recorded_length(done))
 }
 
 /// Averaged passages as CSV and what they show as JSON, each named when it is there; gives the files' stems.

@@ -1,10 +1,12 @@
-//! The page of `size --report`: the answer, and for each recording its spectrum, the envelope's with the lines of all
-//! kinds of fault, the averaged passage, and how strong the comb of each kind is.
+//! The page of `size --report`: the answer in five lines, the recordings beside each other, and for each its spectrum,
+//! the envelope's with the lines of all kinds of fault, the averaged passage, and how strong the lines of each kind
+//! are.
 
 use anyhow::Result;
 use brinell::geometry::kinematics::frequencies;
 use brinell::scene::Scene;
 use brinell_analysis::recording::Recording;
+use brinell_analysis::sizing::{Fault, Grade, Standing};
 use brinell_analysis::sizing::{Figure, RecordingReport, Report};
 use brinell_analysis::spectra::{Comb, EnvelopeSpectrum};
 use brinell_analysis::{spectrum, statistics};
@@ -30,6 +32,63 @@ const TRAVEL: &str = "travel of the element (degrees)";
 /// Powers so far below the highest are drawn on the lower edge (dB).
 const LOWEST: f64 = -80.0;
 
+/// The damaged part and how plainly it shows.
+pub(super) fn damaged(fault: Fault, grade: Grade) -> String {
+    let part = match fault {
+        Fault::Outer => "outer raceway",
+        Fault::Inner => "inner raceway",
+        Fault::Element => "rolling element",
+        Fault::Undecided => return "undecided whether a part is damaged, and which".to_owned(),
+        Fault::None => return "no fault found".to_owned(),
+    };
+    format!("{part} damaged ({})", grade.name())
+}
+
+/// The length of the spall.
+pub(super) fn length(report: &Report) -> String {
+    match (report.length_mm, report.uncertainty_mm, report.length_deg, report.at_least_deg) {
+        (Some(mm), Some(half), Some(degrees), _) => {
+            format!("spall of {mm:.2} ± {half:.2} mm ({degrees:.2} ± {:.2} degrees)", half * degrees / mm)
+        }
+        (.., least) => at_least(least),
+    }
+}
+
+/// The same of one recording.
+pub(super) fn recorded_length(one: &RecordingReport) -> String {
+    match (one.length_deg, one.uncertainty_deg) {
+        (Some(length), Some(half)) => format!("{length:.2} ± {half:.2} degrees"),
+        _ => at_least(one.at_least_deg),
+    }
+}
+
+fn at_least(degrees: Option<f64>) -> String {
+    degrees.map_or("no length".to_owned(), |degrees| format!("spall of at least {degrees:.2} degrees"))
+}
+
+/// What is read first: five lines.
+fn answer(report: &Report) -> Value {
+    let standing = match report.standing {
+        Some(Standing::Firm) => ", at two speeds alike",
+        Some(Standing::Provisional) => ", provisional: from one speed",
+        None => "",
+    };
+    let certainty = match report.grade {
+        Grade::Clear => "clear: the lines of this part are strong, and at least five times those of any other",
+        Grade::Likely => "likely: the lines of this part lead, but are weak or have a rival",
+        Grade::Possible => "possible: the recordings do not decide",
+        Grade::None => "no fault found",
+    };
+    let assumed = if report.assumed.is_empty() { "nothing".to_owned() } else { report.assumed.join("; ") };
+    json!([
+        ["Part", damaged(report.fault, report.grade)],
+        ["Length", format!("{}{standing}", length(report))],
+        ["Certainty", certainty],
+        ["Assumed", assumed],
+        ["Next", report.next],
+    ])
+}
+
 /// The page.
 ///
 /// # Errors
@@ -38,15 +97,19 @@ pub(super) fn page(report: &Report, recordings: &[Recording], scene: &Scene, fou
     let figures = report.recordings.iter().zip(&report.figures).zip(recordings);
     let parts: Vec<Value> = figures.map(|((one, figure), recording)| part(one, figure, recording, scene)).collect();
     let parts = minijinja::value::Serde(parts);
+    let answer = minijinja::value::Serde(answer(report));
+    let reasons: Vec<String> = report.reason.split("; ").map(str::to_owned).collect();
     let (bearing, load) = (&scene.bearing, scene.shaft.load[0].hypot(scene.shaft.load[1]));
     let machine = format!(
-        "Bearing with {} elements of {} mm on a pitch circle of {} mm, load {load:.0} N.",
+        "Bearing with {} elements of {} mm on a pitch circle of {} mm, load {load:.0} N{}.",
         bearing.element_count,
         digits(2e3 * bearing.element_radius()),
-        digits(1e3 * bearing.pitch_diameter)
+        digits(1e3 * bearing.pitch_diameter),
+        if report.assumed.iter().any(|assumed| assumed.starts_with("load")) { " (assumed)" } else { "" }
     );
-    let (program, reason) = (env!("CARGO_PKG_VERSION"), &report.reason);
-    render("size.html", PAGE, context! { found, reason, machine, parts, program, width => WIDTH, height => HEIGHT })
+    let program = env!("CARGO_PKG_VERSION");
+    let size = context! { width => WIDTH, height => HEIGHT };
+    render("size.html", PAGE, context! { found, answer, reasons, machine, parts, program, ..size })
 }
 
 fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &Scene) -> Value {
@@ -71,7 +134,9 @@ fn part(one: &RecordingReport, figure: &Figure, recording: &Recording, scene: &S
         "facts": format!(
             "{:.3} s at {:.0} Hz, shaft {:.3} Hz", recording.duration(), recording.rate(), recording.speed()
         ),
-        "grade": one.grade.name(),
+        "answer": damaged(one.fault, one.grade),
+        "length": recorded_length(one),
+        "speed": format!("{:.2} Hz", recording.speed()),
         "speaks_for": one.speaks_for,
         "speaks_against": one.speaks_against,
         "combs": combs,

@@ -1,7 +1,7 @@
 //! How often `size` is right on recordings of known machines: `cargo lab diagnose LIST.csv`.
 //!
-//! The recordings are the user's: a list names each with its machine, its speed and what is damaged. Each is judged whole,
-//! in halves and in pieces of one second, without knowledge of its rig, beside a plain script on the same pieces
+//! The recordings are the user's: a list names each with its machine, its speed and what is damaged. Each is judged
+//! whole, in halves and in pieces of one second, without knowledge of its rig, beside a plain script on the same pieces
 //! ([`baseline`]). Results are counted by machine: what was adjusted on one machine proves nothing on it.
 
 mod baseline;
@@ -23,12 +23,17 @@ pub use list::{Known, read};
 /// Length of a short piece (s).
 const PIECE: f64 = 1.0;
 
+/// Speeds that are tried, as shares of the true one: at these one kind of fault has the lines of another.
+const WRONG: [f64; 4] = [0.5, 2.0 / 3.0, 1.5, 2.0];
+
 /// What a piece of a recording is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Extent {
     Whole,
     Half,
     Second,
+    /// Whole, at a speed that is not the shaft's.
+    WrongSpeed,
 }
 
 /// What was answered of one piece.
@@ -80,11 +85,12 @@ fn judged(known: &Known) -> Result<Vec<Answer>> {
     let halves = samples.chunks_exact(half.max(1)).map(|piece| (Extent::Half, piece));
     let seconds = samples.chunks_exact(second.max(1)).map(|piece| (Extent::Second, piece));
     let pieces = std::iter::once((Extent::Whole, samples)).chain(halves).chain(seconds);
-    let one = |(extent, piece): (Extent, &[f64])| -> Option<Result<Answer>> {
-        let recording = Recording::new(whole.name(), piece.to_vec(), rate, known.speed).ok()?;
+    let wrong = WRONG.map(|times| (Extent::WrongSpeed, samples, times));
+    let one = |(extent, piece, times): (Extent, &[f64], f64)| -> Option<Result<Answer>> {
+        let recording = Recording::new(whole.name(), piece.to_vec(), rate, times * known.speed).ok()?;
         Some(answer(known, extent, &recording, &scene))
     };
-    pieces.filter_map(one).collect()
+    pieces.map(|(extent, piece)| (extent, piece, 1.0)).chain(wrong).filter_map(one).collect()
 }
 
 fn answer(known: &Known, extent: Extent, recording: &Recording, scene: &Scene) -> Result<Answer> {
@@ -119,8 +125,8 @@ fn answer(known: &Known, extent: Extent, recording: &Recording, scene: &Scene) -
 
 fn write(path: &Path, all: &[Answer]) -> Result<()> {
     let mut text = String::from(
-        "file,machine,extent,truth,nominal_deg,answer,grade,script,length_deg,half_interval_deg,at_least_deg,cpu_s,outer,\
-         outer_alone,inner,inner_alone,element,element_alone,reason\n",
+        "file,machine,extent,truth,nominal_deg,answer,grade,script,length_deg,half_interval_deg,at_least_deg,cpu_s,\
+         outer,outer_alone,inner,inner_alone,element,element_alone,reason\n",
     );
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.3}"));
     for a in all {

@@ -16,12 +16,13 @@ pub(super) fn tables(all: &[Answer]) -> String {
          undecided / named | script: alarms | CPU (s) median, most |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
     );
     for machine in &machines {
-        for extent in [Extent::Whole, Extent::Half, Extent::Second] {
+        for extent in [Extent::Whole, Extent::Half, Extent::Second, Extent::WrongSpeed] {
             let of: Vec<&Answer> = all.iter().filter(|a| a.known.machine == *machine && a.extent == extent).collect();
             text += &kinds(machine, extent, &of);
         }
     }
-    text += "\n| machine | | lengths | hold | ± (median) | mean error | at least: hold |\n|---|---|---:|---:|---:|---:|---:|\n";
+    text += "\n| machine | | lengths | hold | ± (median) | mean error | at least: hold |\n";
+    text += "|---|---|---:|---:|---:|---:|---:|\n";
     for machine in &machines {
         for fault in [Fault::Outer, Fault::Inner] {
             for extent in [Extent::Whole, Extent::Half, Extent::Second] {
@@ -43,6 +44,7 @@ fn name(extent: Extent) -> &'static str {
         Extent::Whole => "whole",
         Extent::Half => "halves",
         Extent::Second => "1 s",
+        Extent::WrongSpeed => "whole, at half to twice the speed",
     }
 }
 

@@ -10,8 +10,9 @@ use anyhow::{Context, Result, bail};
 use brinell::scene::{Defect, DefectShape, Scene};
 use brinell_analysis::recording::{Recording, Source, Speed, TextFormat};
 use brinell_analysis::sizing;
+use brinell_analysis::sizing::event_length::AveragedPassage;
 use brinell_analysis::sizing::passages::fold;
-use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport, event_length};
+use brinell_analysis::sizing::{Fault, Figure, Measured, RecordingReport};
 
 use super::{blind, write_csv};
 use fmu_build::paper::Case;
@@ -250,7 +251,8 @@ struct Loud {
 impl Loud {
     fn of(recording: &Recording, scene: &Scene) -> Result<Self> {
         let measured = Measured::new(recording, &scene.bearing)?;
-        let [angle, _, level] = event_length::averaged_passage(&measured, 0.0);
+        let passage = AveragedPassage::of(&measured);
+        let [angle, _, level] = passage.curves(&measured, 0.0);
         let around = |a: f64, b: f64| {
             let way = (a - b).rem_euclid(measured.spacing);
             way.min(measured.spacing - way)
@@ -261,7 +263,7 @@ impl Loud {
         };
         let first = loudest(&|_| true);
         let second = loudest(&|at| around(at, first) >= APART);
-        Ok(Self { impacts: event_length::impacts(&measured), apart: around(first, second) })
+        Ok(Self { impacts: passage.impacts(), apart: around(first, second) })
     }
 }
 

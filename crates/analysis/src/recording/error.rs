@@ -75,7 +75,11 @@ pub enum SizingError {
     #[error("{name}: sampling rate {given} Hz, but the file states {stated:.3} Hz{by}: they may differ by {limit} %")]
     OtherRate { name: String, given: f64, stated: f64, by: String, limit: f64 },
     /// Nobody has said how fast the shaft turns.
-    #[error("{name}: the shaft's speed is not said: give --speed, --tacho or --speed-column{}", offered(.offer))]
+    #[error(
+        "{name}: the shaft's speed is not said: give --speed 29.2 or 1752rpm, --speed 20..30 to have it sought (the \
+         second less than 1.9 times the first), --tacho or --speed-column{}",
+        offered(.offer)
+    )]
     SpeedNotSaid { name: String, offer: Option<Stated> },
 }
 

@@ -6,7 +6,7 @@ use super::raceway::Raceway;
 use super::report::{Kind, Method, Report, Standing};
 use super::sized::{FLOOR, Length, Sized};
 use super::unresolved::Unresolved;
-use crate::spectra::Fault;
+use crate::spectra::{Fault, Grade};
 use crate::statistics;
 use brinell::scene::Scene;
 
@@ -51,6 +51,47 @@ pub(super) fn common_fault(sized: &[Sized]) -> Fault {
     let mut named = sized.iter().map(|s| s.measured.fault).filter(|&fault| fault != Fault::None);
     let Some(first) = named.next() else { return Fault::None };
     if named.all(|fault| fault == first) { first } else { Fault::Undecided }
+}
+
+/// How plainly they show it: as the least plain of those that show it, and no more than possible if they differ.
+pub(super) fn common_grade(sized: &[Sized]) -> Grade {
+    let fault = common_fault(sized);
+    let of_fault = sized.iter().filter(|s| s.measured.fault == fault).map(|s| s.measured.grade);
+    match fault {
+        Fault::None => Grade::None,
+        Fault::Undecided => Grade::Possible,
+        _ => of_fault.max().unwrap_or(Grade::Possible),
+    }
+}
+
+/// Which recording would settle what is open.
+pub(super) fn next_step(sized: &[Sized]) -> String {
+    let alone = |s: &Sized| s.inside_alone().filter(|_| standing(sized) != Standing::Firm);
+    let open = sized.iter().find_map(|s| alone(s).or(s.length.as_ref().err().cloned()));
+    let named = sized.iter().any(|s| s.measured.fault != Fault::None);
+    // A healthy one among damaged ones settles nothing.
+    let open = open.filter(|why| !(named && sized.len() > 1 && matches!(why, Unresolved::NoPattern(..))));
+    match open {
+        Some(why) => why.next_step().to_owned(),
+        None if standing(sized) == Standing::Firm => "nothing; record again to see whether it grows".to_owned(),
+        None => {
+            let speed = sized.first().map_or(0.0, |s| s.measured.speed);
+            format!(
+                "record at {:.1} Hz and less or {:.1} Hz and more, and size both recordings together",
+                speed / SPEEDS_APART,
+                speed * SPEEDS_APART
+            )
+        }
+    }
+}
+
+/// On the inner raceway a length is one of two speeds.
+pub(super) fn firm_inside(sized: &[Sized]) -> Result<(), String> {
+    let is_inside = sized.iter().any(|s| s.inside_alone().is_some());
+    if !is_inside || standing(sized) == Standing::Firm {
+        return Ok(());
+    }
+    Err(format!("a length on the inner raceway needs two speeds {SPEEDS_APART} times apart that agree"))
 }
 
 /// Lengths of different raceways are not of one spall.

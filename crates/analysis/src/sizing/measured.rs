@@ -3,7 +3,8 @@
 use super::raceway::Raceway;
 use crate::recording::{Recording, SizingError};
 use crate::sizing::passages::{Break, LoadZone, Passages, continuity, fold, linear_prediction};
-use crate::spectra::{Combs, EXISTS, Fault, Grade, other_speed};
+use crate::spectra::shaft_lines::ShaftLines;
+use crate::spectra::{Combs, Fault, Grade, other_speed};
 use crate::spectrum::{Band, Spectrum};
 use crate::statistics;
 use brinell::geometry::kinematics;
@@ -24,6 +25,8 @@ const REVERSED: f64 = 1.05;
 /// Sampling rate (Hz) that events need: echoes fade faster the higher the band, and 5 to 11 kHz is just enough. Below,
 /// an echo is taken for the last impact, whatever the length that comes out.
 pub(super) const ENOUGH_RATE: f64 = 24_000.0;
+/// Share of the variance from which something repeats elsewhere so plainly that "no fault" may be of a wrong speed.
+const LOUD_ELSEWHERE: f64 = 0.1;
 /// Parts into which a recording is cut at most: an eighth and more is lost with each.
 const MOST_CUTS: usize = 3;
 
@@ -46,7 +49,7 @@ pub struct Measured {
     /// Sharpness of the impacts forwards and backwards in time, where they are sharper backwards.
     /// A bearing without a spall may be sharper so, too: it is recognised first.
     pub(super) reversed: Option<[f64; 2]>,
-    /// A comb elsewhere (Hz, share of the variance), where there is none near the bearing's frequencies.
+    /// A strong comb elsewhere (Hz, share of the variance), where there is none near the bearing's frequencies.
     pub(super) elsewhere: Option<[f64; 2]>,
     /// How often an element passes the defect, in the mean (Hz).
     pub pass_frequency: f64,
@@ -135,14 +138,17 @@ impl Measured {
         check_size(recording, nominal)?;
         let (rate, name) = (recording.rate(), recording.name().to_owned());
         let mut spectrum = Spectrum::of(recording.samples(), rate);
-        let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed());
-        let signal = (recording.samples(), &mut spectrum);
-        let speed_check = other_speed::check(signal, rate, &combs, frequencies, recording.speed());
-        let fault = if speed_check.is_err() { Fault::Undecided } else { combs.fault() };
-        let raceway = Raceway::of(fault);
-        let grade = if speed_check.is_err() { Grade::Possible } else { combs.grade() };
+        let shaft = ShaftLines::of(recording.samples(), rate);
+        let turning = shaft.speed_near(recording.speed());
+        let combs = Combs::find(&mut spectrum, rate, frequencies, recording.speed(), turning);
+        let speed_check = other_speed::check((&shaft, &mut spectrum), rate, &combs, frequencies, recording.speed());
         let other = &combs.elsewhere;
-        let elsewhere = (fault == Fault::None && other.share >= EXISTS).then_some([other.frequency, other.share]);
+        let elsewhere = combs.fault() == Fault::None && other.share >= LOUD_ELSEWHERE.max(other.limit());
+        let elsewhere = elsewhere.then_some([other.frequency, other.share]);
+        let is_doubtful = speed_check.is_err() || elsewhere.is_some();
+        let fault = if is_doubtful { Fault::Undecided } else { combs.fault() };
+        let grade = if is_doubtful { Grade::Possible } else { combs.grade() };
+        let raceway = Raceway::of(fault);
         let comb = if raceway == Raceway::Inner { &combs.inner } else { &combs.outer };
         let band = Band { low: impact_band(rate), high: 0.45 * rate };
         let loud = spectrum.squared_envelope(band);

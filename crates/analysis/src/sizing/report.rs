@@ -57,6 +57,8 @@ pub struct Report {
     pub standing: Option<Standing>,
     /// Part of the bearing that the recordings look damaged in.
     pub fault: Fault,
+    /// How plainly they show it.
+    pub grade: Grade,
     /// Arc on the raceway of that fault (mm).
     pub length_mm: Option<f64>,
     /// The same (degrees).
@@ -75,6 +77,10 @@ pub struct Report {
     pub passages: usize,
     /// What the answer rests on, and its warnings; or why there is none.
     pub reason: String,
+    /// What was taken for granted because nobody gave it.
+    pub assumed: Vec<String>,
+    /// Which recording would settle what is open.
+    pub next: String,
     /// How the length was found.
     pub method: Option<Method>,
     /// Smallest load at which elements inside the spall carry load again (N), where the scene's rig could be used.

@@ -1,7 +1,7 @@
 //! The length of the spall in one recording, and all that a report says of it.
 
 use super::event_length;
-use super::event_length::EventLength;
+use super::event_length::{AveragedPassage, EventLength};
 use super::kind::{Classification, Crossing};
 use super::measured::Measured;
 use super::raceway::{self, Raceway};
@@ -28,6 +28,7 @@ pub(super) const FLOOR: f64 = 0.02;
 /// A recording with its results.
 pub(super) struct Sized {
     pub(super) measured: Measured,
+    passage: AveragedPassage,
     pub(super) length: Result<Length, Unresolved>,
     pub(super) events: Option<EventLength>,
     waveform: Option<WaveformLength>,
@@ -49,6 +50,7 @@ pub(super) struct Length {
 impl Sized {
     pub(super) fn of(mut measured: Measured, scene: &Scene, maps: Maps<'_>) -> Self {
         let rig = Rig::new(scene, measured.bpfo, maps);
+        let passage = AveragedPassage::of(&measured);
         let whole = measured.broken.is_none() && measured.times_a_period.is_none();
         let combs = &measured.combs;
         let outer = match measured.fault {
@@ -70,7 +72,7 @@ impl Sized {
                 }
                 Err(Unresolved::Healthy(similarity))
             }
-            _ => event_length::estimate(&measured, scene),
+            _ => event_length::estimate(&measured, &passage, scene),
         };
         let waveform = trials.and_then(Result::ok).filter(|_| measured.reversed.is_none());
         let spacing = measured.spacing;
@@ -96,11 +98,13 @@ impl Sized {
             }
             (None, Err(why)) => Err(why.clone()),
         };
-        Self { measured, length, events: events.ok(), waveform, similarity, classification }
+        Self { measured, passage, length, events: events.ok(), waveform, similarity, classification }
     }
 
     pub(super) fn report(&self) -> RecordingReport {
-        let length = self.length.as_ref().ok();
+        // What one recording tells of the inner raceway by itself.
+        let alone = self.inside_alone();
+        let length = self.length.as_ref().ok().filter(|_| alone.is_none());
         let [mut speaks_for, mut speaks_against] = self.measured.combs.evidence();
         match &self.measured.speed_check {
             Ok(confirmed) => speaks_for.extend(confirmed.clone()),
@@ -121,15 +125,21 @@ impl Sized {
             modulation: self.measured.modulation,
             onset_deg: self.events.as_ref().map(|e| self.first_impact(e) + e.onset),
             impacts_deg: self.events.as_ref().map_or_else(Vec::new, |e| self.impacts(e)),
-            edges_deg: self.length.as_ref().ok().map(|found| [0.0, found.length]),
+            edges_deg: length.map(|found| [0.0, found.length]),
             passages: self.measured.passages.starts.len(),
             similarity: self.similarity,
             at_least_deg: self.at_least(),
             used_s: self.measured.cut.map(|cut| cut.used),
             ringing_hz: self.classification.ringing.map(Ringing::pair),
             expected_ringing_hz: self.classification.expected.map(|e| e.map(Ringing::pair)),
-            reason: self.length.as_ref().err().map(ToString::to_string),
+            reason: alone.as_ref().or(self.length.as_ref().err()).map(ToString::to_string),
         }
+    }
+
+    /// Why the length by events on the inner raceway is none of a single recording.
+    pub(super) fn inside_alone(&self) -> Option<Unresolved> {
+        let is_inside = self.measured.raceway == Raceway::Inner && self.length.is_ok();
+        is_inside.then(|| Unresolved::InsideAlone(self.passage.impacts().last().copied().unwrap_or(0.0)))
     }
 
     /// From first to last impact (degrees), where that is all that is known of the length: no entry is seen, or where
@@ -137,11 +147,14 @@ impl Sized {
     pub(super) fn at_least(&self) -> Option<f64> {
         match &self.length {
             Err(Unresolved::NoEntry(span, ..)) => Some(*span),
-            Err(Unresolved::Halves(..) | Unresolved::TooUncertain(..)) => {
-                event_length::impacts(&self.measured).last().copied().filter(|&span| span > 0.0)
-            }
+            Err(Unresolved::Halves(..) | Unresolved::TooUncertain(..)) => self.span(),
+            Ok(_) if self.measured.raceway == Raceway::Inner => self.span(),
             _ => None,
         }
+    }
+
+    fn span(&self) -> Option<f64> {
+        self.passage.impacts().last().copied().filter(|&span| span > 0.0)
     }
 
     /// The leading edge after the start of a passage's period (degrees): where all angles of a report count from.
@@ -173,8 +186,8 @@ impl Sized {
     pub(super) fn figure(&self, scene: &Scene) -> Figure {
         let measured = &self.measured;
         // Without a leading edge a passage is best seen from its first impact.
-        let from = self.leading_edge().or_else(|| event_length::first_impact(measured)).unwrap_or(0.0);
-        let [angle, signal, level] = event_length::averaged_passage(measured, from);
+        let from = self.leading_edge().or_else(|| self.passage.first_impact()).unwrap_or(0.0);
+        let [angle, signal, level] = self.passage.curves(measured, from);
         let rate = measured.pass_frequency * signal.len() as f64;
         let low = Spectrum::of(&signal, rate).filtered(Band { low: 0.5 * measured.pass_frequency, high: CUT });
         let model = self.waveform.as_ref().map(|w| {

@@ -72,6 +72,8 @@ pub fn size_with(
     let first = sized.first().ok_or(SizingError::NoRecordings)?;
     let mut report = Report {
         fault: combined::common_fault(&sized),
+        grade: combined::common_grade(&sized),
+        next: combined::next_step(&sized),
         bpfo_hz: first.measured.bpfo,
         slip: statistics::mean(&sized.iter().map(|s| s.measured.slip).collect::<Vec<_>>()),
         passages: sized.iter().map(|s| s.measured.passages.starts.len()).sum(),
@@ -84,12 +86,15 @@ pub fn size_with(
     match combined::of_one_fault(&sized)
         .and_then(|()| onset.as_ref().map_err(ToString::to_string).copied())
         .and_then(|()| combined::combine(&lengths, sized.len()))
+        .and_then(|combined| combined::firm_inside(&sized).map(|()| combined))
     {
         Err(why) => {
-            let each =
-                sized.iter().filter_map(|s| s.length.as_ref().err().map(|e| format!("{}: {e}", s.measured.name)));
-            report.reason =
-                std::iter::once(why).chain(each).chain(combined::cuts(&sized)).collect::<Vec<_>>().join("; ");
+            let each = report
+                .recordings
+                .iter()
+                .filter_map(|r| r.reason.as_ref().map(|reason| format!("{}: {reason}", r.name)));
+            let why = Some(why).filter(|_| sized.len() > 1);
+            report.reason = why.into_iter().chain(each).chain(combined::cuts(&sized)).collect::<Vec<_>>().join("; ");
             report.at_least_deg = at_least(onset, &sized);
         }
         Ok(Combined { length, uncertainty }) => {
@@ -115,7 +120,11 @@ pub fn size_with(
 /// What is left of a length (degrees): the least that recordings with wandering onsets have, or the most that one has.
 fn at_least(onset: Result<(), Wandering>, sized: &[Sized]) -> Option<f64> {
     let wandering = onset.err().map(|wandering| wandering.at_least);
-    wandering.into_iter().chain(sized.iter().filter_map(Sized::at_least)).reduce(f64::max)
+    let all = sized.iter().filter_map(Sized::at_least);
+    match wandering {
+        Some(least) => Some(least),
+        None => all.reduce(f64::max),
+    }
 }
 
 /// Equal recordings are one: counted twice it would narrow the interval.

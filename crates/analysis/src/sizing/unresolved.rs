@@ -6,14 +6,14 @@
 pub enum Unresolved {
     /// Nothing repeats with the bearing's frequencies.
     #[error(
-        "no fault found: nothing repeats with a ball pass frequency of the bearing; shares of the variance of the log \
-         envelope are {0}, limit {1:.0} %"
+        "nothing repeats with a passage frequency of the bearing: of the envelope's variation {0} \
+         (named from {1:.1} % on). {2}"
     )]
-    NoPattern(String, f64),
+    NoPattern(String, f64, &'static str),
     /// None could be seen.
     #[error(
-        "too short to tell whether there is a fault: in {0:.1} turns of the shaft no line of a comb stands apart from \
-         the shaft's own; give five turns or more"
+        "too short to tell whether there is a fault: in {0:.1} turns of the shaft no line of the bearing stands apart \
+         from the shaft's own; give five turns or more"
     )]
     TooFewTurns(f64),
     /// As a bearing without a spall.
@@ -21,8 +21,8 @@ pub enum Unresolved {
     Healthy(f64),
     /// Something else repeats.
     #[error(
-        "no fault found: nothing repeats with a ball pass frequency of the bearing; shares of the variance of the log \
-         envelope are {0}, but a comb at {1:.2} Hz has {2:.0} %: are speed, rate and bearing right?"
+        "lines at multiples of {1:.2} Hz make up {2:.0} % of the envelope's variation, and are none of this bearing at \
+         this speed ({0}): are speed, rate and bearing right? Else another part of the machine makes them"
     )]
     OtherPattern(String, f64, f64),
     /// Another speed would suit it as well.
@@ -36,12 +36,12 @@ pub enum Unresolved {
     Reversed(f64, f64),
     /// A rolling element's fault.
     #[error(
-        "it looks like a fault of a rolling element, whose length is not read from recordings: shares of the \
-         variance of the log envelope are {0}"
+        "it looks like a fault of a rolling element, whose length is not read from recordings: of the envelope's \
+         variation {0}"
     )]
     OfElement(String),
     /// No kind of fault stands out.
-    #[error("no kind of fault leads: shares of the variance of the log envelope are {0}")]
+    #[error("no kind of fault leads: of the envelope's variation {0}")]
     TwoKinds(String),
     /// An inner raceway's comb without its load zone.
     #[error(
@@ -96,6 +96,12 @@ pub enum Unresolved {
          exit on the inner raceway are not separate"
     )]
     OneInside(f64),
+    /// The inner raceway by one speed.
+    #[error(
+        "on the inner raceway one recording does not show where the spall begins: the onset differs by up to a third \
+         of the length from machine to machine. From first to last impact are {0:.2} degrees"
+    )]
+    InsideAlone(f64),
     /// No entry.
     #[error(
         "{0:.2} degrees between first and last impact, but no clear entry before them (clearness {1:.1}, limit {2:.1})"
@@ -113,4 +119,29 @@ pub enum Unresolved {
     /// Too uncertain.
     #[error("{0:.2} degrees, uncertain by {1:.2} (95 %): more than a third of it")]
     TooUncertain(f64, f64),
+}
+
+impl Unresolved {
+    /// Which recording would settle it.
+    pub(super) fn next_step(&self) -> &'static str {
+        match self {
+            Self::NoPattern(..) | Self::Healthy(_) => {
+                "nothing; record again as routine does, at the same place and load"
+            }
+            Self::OtherPattern(..) | Self::OtherSpeed(_) | Self::SeveralTimes(_) => {
+                "measure the shaft's speed (--tacho, --speed-column), and check bearing and sampling rate"
+            }
+            Self::TooFewTurns(_) => "record five turns or more, better five seconds",
+            Self::Reversed(..) | Self::Broken(..) => "record again without gaps, at a steady speed",
+            Self::OfElement(_) => "look at the rolling elements: their defects get no length",
+            Self::LowRate(..) => "record at 24 kHz or more, better at 50 kHz",
+            Self::InsideAlone(_) | Self::OneInside(_) => {
+                "record at two speeds, one 1.3 times the other, with the sensor in the load zone"
+            }
+            Self::TwoKinds(_) | Self::NoLoadZone(..) | Self::NoImpact(_) => {
+                "record for longer, under more load, with the sensor in the load zone"
+            }
+            _ => "record at another speed, slower if possible, and size both recordings together",
+        }
+    }
 }

@@ -6,7 +6,7 @@
 //! Z f_shaft, three harmonics of BPFO lie within 1 % of two of BPFI and four within 2 % of three of 2 BSF, so that the
 //! comb of one kind shows in those of the others.
 
-use super::lines::{LOBE, Lines, steps};
+use super::lines::{LOBE, Lines, is_mains, steps};
 use crate::spectrum::{Band, Spectrum};
 use brinell::geometry::kinematics::Frequencies;
 use serde::Serialize;
@@ -14,6 +14,9 @@ use serde::Serialize;
 /// Largest deviation of the ball pass frequency from pure rolling: 3 % slip behind, 2 % ahead by inexact dimensions or
 /// speed.
 pub(crate) const SLIP: std::ops::RangeInclusive<f64> = -0.02..=0.03;
+/// The same where the shaft's own lines say how fast it turns: dimensions that are inexact, a contact angle, slip under
+/// load.
+const SLIP_OF_KNOWN: std::ops::RangeInclusive<f64> = -0.012..=0.02;
 /// Difference of frequencies, as a share, up to which they are of one comb.
 const SAME: f64 = 0.01;
 /// Multiples of a comb's frequency at which it has many of its lines, too.
@@ -29,7 +32,8 @@ pub struct Comb {
     /// Its frequency (Hz).
     #[serde(rename = "frequency_hz")]
     pub frequency: f64,
-    /// Share of the variance of the envelope's logarithm that repeats at it, mean of the two octaves with most.
+    /// Share of the variance of the envelope's logarithm that repeats at it, mean of the two octaves with most; a
+    /// single line without others or sidebands counts little.
     pub share: f64,
     /// The same without the lines of the strongest comb; equal for that one itself.
     pub alone: f64,
@@ -71,12 +75,26 @@ pub struct Combs {
     /// The strongest at half or a third of that one's frequency, of what is left without it.
     #[serde(skip)]
     pub(crate) between: Comb,
+    /// Turns of the shaft in the recording.
+    #[serde(skip)]
+    pub(crate) turns: f64,
 }
 
 impl Combs {
-    /// Searches a recording of a shaft that turns at `speed` (Hz) near the nominal frequencies.
-    pub fn find(spectrum: &mut Spectrum, rate: f64, nominal: Frequencies, speed: f64) -> Self {
-        Self::find_of(&mut |band| (spectrum.squared_envelope(band), rate), rate, nominal, speed)
+    /// Searches a recording of a shaft that turns at `speed` (Hz) near the nominal frequencies, both of the stated
+    /// speed; `shaft` is the shaft's speed by its own lines (Hz), where they show it.
+    pub(crate) fn find(
+        spectrum: &mut Spectrum,
+        rate: f64,
+        nominal: Frequencies,
+        speed: f64,
+        shaft: Option<f64>,
+    ) -> Self {
+        let ratio = shaft.map_or(1.0, |shaft| shaft / speed);
+        let [bpfo, bpfi, bsf, ftf] = [nominal.bpfo, nominal.bpfi, nominal.bsf, nominal.ftf].map(|f| ratio * f);
+        let nominal = Frequencies { bpfo, bpfi, bsf, ftf };
+        let slip = if shaft.is_some() { SLIP_OF_KNOWN } else { SLIP };
+        Self::near(&mut |band| (spectrum.squared_envelope(band), rate), rate, nominal, ratio * speed, slip)
     }
 
     /// The same in the squared envelopes that `envelope` gives of a band, each with its own rate (Hz): at equal shaft
@@ -86,6 +104,16 @@ impl Combs {
         rate: f64,
         nominal: Frequencies,
         speed: f64,
+    ) -> Self {
+        Self::near(envelope, rate, nominal, speed, SLIP)
+    }
+
+    fn near(
+        envelope: &mut dyn FnMut(Band) -> (Vec<f64>, f64),
+        rate: f64,
+        nominal: Frequencies,
+        speed: f64,
+        slip: std::ops::RangeInclusive<f64>,
     ) -> Self {
         let mut bands = bands(rate, nominal.bpfo);
         if bands.is_empty() {
@@ -97,20 +125,25 @@ impl Combs {
         };
         let mut all: Vec<Lines> = bands.into_iter().map(lines).collect();
         let frequencies = [nominal.bpfo, nominal.bpfi, 2.0 * nominal.bsf];
-        let near = |all: &[Lines], f: f64| strongest(all, f * (1.0 - SLIP.end()), f * (1.0 - SLIP.start()), |_| true);
-        let mut three = frequencies.map(|f| near(&all, f));
+        // What turns through the load zone has sidebands.
+        let beside = [None, Some(speed), Some(nominal.ftf)];
+        let near = |all: &[Lines], kind: usize| {
+            let f = frequencies[kind];
+            strongest(all, [f * (1.0 - slip.end()), f * (1.0 - slip.start())], beside[kind], |_| true)
+        };
+        let mut three = [0, 1, 2].map(|kind| near(&all, kind));
         let leader = (0..3).max_by(|&a, &b| three[a].share.total_cmp(&three[b].share)).unwrap_or(0);
         let own = three[leader].frequency;
         let lobes = 2.0 * LOBE / all[0].duration;
         let is_related = |f: f64| RELATED.iter().any(|times| (f - times * own).abs() <= (OTHER * f).max(lobes));
-        let other = |f: f64| !all[0].of_shaft(f) && !is_related(f);
-        let elsewhere = strongest(&all, 0.5 * nominal.bpfo, 2.0 * nominal.bpfi, other);
+        let other = |f: f64| !all[0].of_shaft(f) && !is_mains(f) && !is_related(f);
+        let elsewhere = strongest(&all, [0.5 * nominal.bpfo, 2.0 * nominal.bpfi], None, other);
         let between_multiples = [2, 3].map(|parts| mean_of_best(&all, |lines| lines.share_between(own, parts)));
         let sideband = [speed, speed, nominal.ftf][leader];
         all.iter_mut().for_each(|lines| lines.without(own, sideband));
         for other in (0..3).filter(|&other| other != leader) {
             // Its own comb, wherever in the range that is; and no more than there was.
-            let own = near(&all, frequencies[other]);
+            let own = near(&all, other);
             three[other].alone = own.share.min(three[other].share);
             if own.share > 0.5 * three[other].share {
                 three[other] = Comb { share: three[other].share, alone: three[other].alone, ..own };
@@ -118,21 +151,23 @@ impl Combs {
         }
         let part = |parts: f64| {
             let middle = own / parts;
-            strongest(&all, middle * (1.0 - SAME), middle * (1.0 + SAME), |_| true)
+            strongest(&all, [middle * (1.0 - SAME), middle * (1.0 + SAME)], None, |_| true)
         };
         let [half, third] = [2.0, 3.0].map(part);
         let between = if half.share > third.share { half } else { third };
         let [outer, inner, element] = three;
-        Self { outer, inner, element, elsewhere, between_multiples, between }
+        let turns = all[0].duration * speed;
+        Self { outer, inner, element, elsewhere, between_multiples, between, turns }
     }
 }
 
-/// The strongest comb between two frequencies (Hz), of those that are asked for.
-fn strongest(all: &[Lines], low: f64, high: f64, asked: impl Fn(f64) -> bool) -> Comb {
+/// The strongest comb between two frequencies (Hz), of those that are asked for, with sidebands at a distance (Hz).
+fn strongest(all: &[Lines], [low, high]: [f64; 2], beside: Option<f64>, asked: impl Fn(f64) -> bool) -> Comb {
     let duration = all[0].duration;
     // Windows of the sixth harmonic overlap to nine tenths from step to step.
     let step = (0.1 / duration).max(4e-4 * low);
-    let tried = steps(low, high, step).filter(|&f| asked(f)).map(|f| (f, mean_of_best(all, |lines| lines.share(f))));
+    let tried =
+        steps(low, high, step).filter(|&f| asked(f)).map(|f| (f, mean_of_best(all, |lines| lines.share(f, beside))));
     let (rough, share) = tried.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((low, 0.0));
     // Within the windows all frequencies have the same share: there the lines' height decides, and which band shows
     // them in most harmonics.

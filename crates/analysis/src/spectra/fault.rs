@@ -35,7 +35,7 @@ impl Fault {
 }
 
 /// How plainly a recording shows the kind of its fault, as published grades of recordings do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Grade {
     /// A tenth of the variance repeats at one kind's comb and less than a fifth of that at any other.
@@ -45,6 +45,7 @@ pub enum Grade {
     /// Something of the bearing repeats, but no kind leads; another speed would suit it as well; or it is too short.
     Possible,
     /// No fault found.
+    #[default]
     None,
 }
 
@@ -60,20 +61,22 @@ impl Grade {
     }
 }
 
-/// Share of the variance from which a fault is there: of recorded healthy machines at most 0.036 repeats at a
-/// bearing's frequency, of named faults 0.04 to 0.9.
-pub const EXISTS: f64 = 0.04;
+/// Share of the variance from which a fault is there. Two healthy machines, and pitted balls that do not show, have at
+/// most 0.058 at the frequencies of their own bearing and at those of fifty that they do not have; named faults have
+/// 0.07 and more.
+pub const EXISTS: f64 = 0.065;
 /// Times what noise alone has in the comb's windows: short recordings have wide windows.
 const ABOVE_NOISE: f64 = 3.0;
-/// Times the share of any other kind's own lines by which a kind leads: recordings without a clear kind have at most
-/// 2.3 where enough repeats.
-const LEADS: f64 = 2.5;
+/// Times the share of any other kind's own lines by which a kind leads.
+const LEADS: f64 = 3.0;
+/// Turns of the shaft from which its lines are apart from each other.
+const FEWEST_TURNS: f64 = 4.5;
 /// Share and lead of a [`Grade::Clear`] kind.
 const CLEAR: [f64; 2] = [0.1, 5.0];
 
 impl Comb {
     /// Share from which it is a fault's.
-    fn limit(&self) -> f64 {
+    pub(crate) fn limit(&self) -> f64 {
         EXISTS.max(ABOVE_NOISE * self.noise)
     }
 }
@@ -90,10 +93,10 @@ impl Combs {
         [all[0], all[1]]
     }
 
-    /// Whether the recording is too short to tell anything, four turns and less: all windows of its combs are so wide
-    /// that they hold lines of the shaft.
+    /// Whether the recording is too short to tell anything: all windows of its combs are so wide that they hold lines
+    /// of the shaft.
     pub(crate) fn is_too_short(&self) -> bool {
-        self.all().iter().all(|(_, comb)| comb.noise <= 0.0)
+        self.turns < FEWEST_TURNS
     }
 
     /// The kind that the recording looks like.
@@ -133,38 +136,29 @@ impl Combs {
 
     /// In words.
     pub fn described(&self) -> String {
-        let one = |name: &str, comb: &Comb| {
-            format!(
-                "{name} {:.1} % ({:.1} % alone) at {:.2} Hz",
-                100.0 * comb.share,
-                100.0 * comb.alone,
-                comb.frequency
-            )
-        };
+        let one = |name: &str, comb: &Comb| format!("{name} {:.1} % at {:.2} Hz", 100.0 * comb.share, comb.frequency);
         format!("{}, {}, {}", one("BPFO", &self.outer), one("BPFI", &self.inner), one("2 BSF", &self.element))
     }
 
     /// What speaks for the strongest kind, and what against it, in words.
     pub fn evidence(&self) -> [Vec<String>; 2] {
         let [(fault, leader), (other, rival)] = self.leader_and_rival();
-        let (name, percent) = (fault.name(), 100.0 * leader.share);
         let [low, high] = [leader.band.low, leader.band.high].map(|f| 1e-3 * f);
-        let at = format!("the comb of {name} at {:.2} Hz", leader.frequency);
-        let of_variance =
-            format!("{percent:.1} % of the variance of the log envelope, best seen in {low:.1} to {high:.1} kHz");
-        let limit = 100.0 * leader.limit();
-        let beside = format!(
-            "{} has {:.1} % at {:.2} Hz that is not explained by it, {:.1} times less",
-            other.name(),
-            100.0 * rival.alone,
-            rival.frequency,
-            leader.share / rival.alone.max(f64::MIN_POSITIVE)
+        let exists = format!(
+            "the lines of {} at multiples of {:.2} Hz make up {:.1} % of the envelope's variation (limit {:.1} %), \
+             best from {low:.1} to {high:.1} kHz",
+            fault.name(),
+            leader.frequency,
+            100.0 * leader.share,
+            100.0 * leader.limit(),
         );
-        let exists = format!("{at} holds {of_variance}, limit {limit:.1} %");
-        let pairs = [
-            (leader.share >= leader.limit(), exists),
-            (leader.share >= LEADS * rival.alone, format!("{beside}, limit {LEADS}")),
-        ];
+        let beside = format!(
+            "the next kind, {} at {:.2} Hz, has {:.1} % of its own ({LEADS} times less is the limit)",
+            other.name(),
+            rival.frequency,
+            100.0 * rival.alone,
+        );
+        let pairs = [(leader.share >= leader.limit(), exists), (leader.share >= LEADS * rival.alone, beside)];
         let [mut speaks_for, mut against] = [Vec::new(), Vec::new()];
         for (holds, text) in pairs {
             if holds { speaks_for.push(text) } else { against.push(text) }

@@ -1,31 +1,26 @@
-//! The speed of the shaft, found in the signal itself.
+//! The speed of the shaft between two limits, found in the signal itself.
 //!
-//! Candidates are the speeds whose own lines stand out ([`ShaftLines`]). A line is explained by another candidate if it
-//! is a passage frequency of the bearing at that one's speed, which makes lines in the signal as well, or if it is a
-//! multiple of that one or a part of its passage frequency and not higher. The highest that is left is the speed, if
-//! none beside it is nearly as high and none is at its half or third, whose lines contain its own. The combs of the
-//! bearing are not asked which of several it is: on recordings they name the same fault at half the speed, and a false
-//! one at a fifth. They check the speed that is found, as they check a stated one.
+//! The limits are so close that no speed between them is the half or double of another one: lines alone do not tell an
+//! octave. Candidates are the speeds whose own lines stand out ([`ShaftLines`]). One is explained by another if it is a
+//! passage frequency of the bearing at that one's speed, or a part of one and not higher. The highest that is left is
+//! the speed, if no other is nearly as high. The bearing's own lines check it as they check a stated one.
 
 use super::combs::SLIP;
-use super::shaft_lines::{CONFIRMS, SHAFT, ShaftLines, THERE};
+use super::shaft_lines::{CONFIRMS, DECIBELS, SHAFT, ShaftLines, THERE};
 use crate::recording::SizingError;
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
 
-/// Speeds among which one is sought where nothing is known (Hz): machines of 300 to 3600 rev/min.
-pub const PLAUSIBLE: [f64; 2] = [5.0, 60.0];
+/// Largest ratio of two limits: nothing between them is an octave of anything else.
+pub const WIDEST: f64 = 1.9;
 /// Fewest turns of the slowest shaft: the noise between two of its lines is then judged by a dozen bins and more.
 const FEWEST_TURNS: f64 = 20.0;
 /// Difference of two speeds up to which they are one, as a share.
 const ONE: f64 = 0.02;
 /// Candidates that are looked at.
 const MOST: usize = 12;
-/// Multiples of a candidate, and parts of its passage frequencies, that it explains.
-const MULTIPLES: u32 = 6;
+/// Parts of a passage frequency that it explains.
 const PARTS: u32 = 3;
-/// Parts of the speed at which another shaft may have all of its lines.
-const SLOWER: std::ops::RangeInclusive<u32> = 2..=3;
 
 /// A speed (Hz), and how high the weakest of its lines are (nepers of power).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,25 +48,28 @@ pub fn find_speed(
     let Some(highest) = candidates.first().filter(|highest| highest.height >= THERE) else {
         let (speed, height) = candidates.first().map_or((low, 0.0), |c| (c.speed, c.height));
         return Err(refuse(format!(
-            "no lines of a shaft of {low} to {high} Hz: the weakest three of five are at most {height:.1} nepers of \
-             power above the noise, at {speed:.2} Hz, limit {THERE}"
+            "no lines of a shaft of {low} to {high} Hz: the weakest three of five are at most {:.0} dB above the \
+             noise, at {speed:.2} Hz, limit {:.0} dB",
+            DECIBELS * height,
+            DECIBELS * THERE
         )));
     };
     let there: Vec<Candidate> = candidates.iter().copied().filter(|c| c.height >= THERE).collect();
     let orders = orders(bearing);
     let mut left = there.iter().copied().filter(|one| !there.iter().any(|other| explains(*other, *one, &orders)));
     let leader = left.next().unwrap_or(*highest);
-    let is_part = |c: &Candidate| SLOWER.into_iter().any(|parts| same(leader.speed, f64::from(parts) * c.speed));
-    let rivals = left.filter(|c| c.height > leader.height - CONFIRMS || is_part(c));
+    let rivals = left.filter(|c| c.height > leader.height - CONFIRMS);
     let equals: Vec<Candidate> = std::iter::once(leader).chain(rivals).collect();
     if equals.len() == 1 {
         return Ok(leader.speed);
     }
-    let words: Vec<String> = equals.iter().map(|c| format!("{:.2} Hz with {:.1}", c.speed, c.height)).collect();
+    let words: Vec<String> =
+        equals.iter().map(|c| format!("{:.2} Hz with {:.0} dB", c.speed, DECIBELS * c.height)).collect();
     Err(refuse(format!(
-        "the speed of the shaft is not unique: {}, nepers of power of the weakest three of its first five lines; one \
-         must be higher by {CONFIRMS} than all others, and have none at its half or third",
-        words.join(", ")
+        "the speed of the shaft is not unique: {} above the noise in the weakest three of its first five lines; one \
+         must be higher by {:.0} dB than all others",
+        words.join(", "),
+        DECIBELS * CONFIRMS
     )))
 }
 
@@ -79,6 +77,12 @@ fn check_limits(duration: f64, rate: f64, [low, high]: [f64; 2]) -> Result<(), S
     if !(low > 0.0 && low < high && high.is_finite()) {
         return Err(format!(
             "a speed is sought from {low} to {high} Hz: the first must be above 0 and below the second"
+        ));
+    }
+    if high >= WIDEST * low {
+        return Err(format!(
+            "a speed is sought from {low} to {high} Hz: the second may be at most {WIDEST} times the first, as the \
+             half of a speed has lines at the same places"
         ));
     }
     let top = SHAFT as f64 * high;
@@ -130,5 +134,4 @@ fn explains(shaft: Candidate, other: Candidate, orders: &[f64]) -> bool {
     let passes = |order: f64| (1.0 - SLIP.end()..=1.0 - SLIP.start()).contains(&(ratio / order));
     let lower = other.height <= shaft.height && shaft != other;
     orders.iter().any(|&order| passes(order) || lower && (2..=PARTS).any(|parts| passes(order / f64::from(parts))))
-        || lower && (2..=MULTIPLES).any(|multiple| same(ratio, f64::from(multiple)))
 }

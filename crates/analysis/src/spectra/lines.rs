@@ -7,7 +7,11 @@
 //! ```
 //! with P the power, N the noise near it and T the duration: the part of the variance that repeats at f. It does not
 //! grow with the duration, as a significance does. w holds a line as wide as a wandering cage makes it, and a line of
-//! the window. Harmonics that fall on the shaft's own comb are left out: a healthy machine has those.
+//! the window. Lines of the shaft and of the mains are cut out of the windows: a healthy machine has those, and they
+//! are what is strongest in one.
+//!
+//! A single line is no comb: it may be of anything that turns. So the strongest line of a comb counts up to
+//! [`SUPPORTED`] times what the others hold, together with its sidebands where the damaged part turns through the load.
 
 use crate::spectrum::Band;
 use crate::{spectrum, statistics};
@@ -21,6 +25,17 @@ const FINE: usize = 10;
 const WIDTH: f64 = 0.004;
 /// Half the width of a line's main lobe, times the duration: so far from its middle a comb may look as strong.
 pub(crate) const LOBE: f64 = 2.5;
+/// Half the width of what is cut out for a line of the shaft or of the mains, times the duration: Hann's lobe but for a
+/// hundredth of its power.
+const CUT: f64 = 1.5;
+/// Frequencies of mains (Hz), and how far they may be from them, as a share.
+const MAINS: [f64; 2] = [50.0, 60.0];
+const MAINS_OFF: f64 = 1e-3;
+/// Difference, as a share, up to which a comb cannot be told from that of the mains: it is then not cut out.
+const IS_MAINS: f64 = 0.01;
+/// Times what supports it that the strongest line of a comb counts: with 3, healthy machines have at most 4 % at the
+/// frequencies of bearings that they do not have, where all that repeats makes 36 %.
+const SUPPORTED: f64 = 3.0;
 /// Power that counts as nothing, as a share of the mean: 30 dB down. Signals without noise, as simulations give
 /// them, hold all of a bearing's frequencies at some level; what counts is which of them is loud.
 const QUIET: f64 = 1e-3;
@@ -59,8 +74,13 @@ impl Lines {
         let total = power.get(counted).map_or(0.0, |counted| counted.iter().sum::<f64>()).max(f64::MIN_POSITIVE);
         power.iter_mut().for_each(|p| *p /= total);
         let noise = noise(&power, (speed / bin) as usize);
-        let excess: Vec<f64> = power.iter().zip(&noise).map(|(p, n)| (p - n).max(0.0)).collect();
+        let mut excess: Vec<f64> = power.iter().zip(&noise).map(|(p, n)| (p - n).max(0.0)).collect();
         let duration = envelope.len() as f64 / rate;
+        for turn in 1..=(top / speed) as usize + 1 {
+            let at = |side: f64| ((turn as f64 * speed + side * CUT / duration) / bin).max(0.0) as usize;
+            let end = (at(1.0) + 1).min(excess.len());
+            excess[at(-1.0).min(end)..end].fill(0.0);
+        }
         Self { band, duration, power, sums: sums(&excess), noise: sums(&noise), excess, bin, speed }
     }
 
@@ -75,30 +95,52 @@ impl Lines {
         (turns - turns.round()).abs() * self.speed
     }
 
-    /// Share of the variance that repeats at a frequency (Hz).
-    pub(crate) fn share(&self, frequency: f64) -> f64 {
-        self.in_windows(frequency, |_| true, &self.sums)
+    /// Share of the variance that repeats at a frequency (Hz), where no line stands alone; `beside` is the distance
+    /// (Hz) of sidebands that support it.
+    pub(crate) fn share(&self, frequency: f64, beside: Option<f64>) -> f64 {
+        let lines: [f64; HARMONICS] = std::array::from_fn(|k| self.in_window((k + 1) as f64 * frequency, frequency));
+        let strongest = lines.iter().copied().fold(0.0, f64::max);
+        let rest = lines.iter().sum::<f64>() - strongest;
+        let pair = |k: f64, distance: f64| {
+            let side = |f: f64| self.between(&self.sums, f, self.half_width(f).min(0.4 * distance));
+            side(k * frequency - distance) + side(k * frequency + distance)
+        };
+        let sidebands = beside.map_or(0.0, |distance| pair(1.0, distance).max(pair(2.0, distance)));
+        strongest.min(SUPPORTED * (rest + sidebands)) + rest
     }
 
     /// What of it is in harmonics that are no multiples of `parts`: nothing where the comb is that of as many times
     /// the frequency.
     pub(crate) fn share_between(&self, frequency: f64, parts: usize) -> f64 {
-        self.in_windows(frequency, |k| !k.is_multiple_of(parts), &self.sums)
+        let own = (1..=HARMONICS).filter(|k| !k.is_multiple_of(parts));
+        own.map(|k| self.in_window(k as f64 * frequency, frequency)).sum()
     }
 
     /// What noise alone has in the windows of such a comb.
     pub(crate) fn noise(&self, frequency: f64) -> f64 {
-        self.in_windows(frequency, |_| true, &self.noise)
+        (1..=HARMONICS).map(|k| k as f64 * frequency).map(|f| self.between(&self.noise, f, self.half_width(f))).sum()
     }
 
-    fn in_windows(&self, frequency: f64, chosen: impl Fn(usize) -> bool, sums: &[f64]) -> f64 {
-        let harmonics = (1..=HARMONICS).filter(|&k| chosen(k)).map(|k| k as f64 * frequency);
-        let own = harmonics.map(|f| (f, self.half_width(f))).filter(|&(f, width)| self.off_shaft(f) >= width);
-        own.map(|(f, width)| {
-            let sum = |f: f64| sums[((f / self.bin).round().max(0.0) as usize).min(sums.len() - 1)];
-            sum(f + width + self.bin) - sum(f - width)
-        })
-        .sum()
+    /// What is above the noise at a harmonic (Hz) of a comb (Hz), without the lines of the mains.
+    fn in_window(&self, f: f64, comb: f64) -> f64 {
+        let width = self.half_width(f);
+        let mut mains = MAINS.map(|base| nearest(base, f));
+        if mains[0] == mains[1] {
+            mains[1] = 0.0;
+        }
+        let is_mains = is_mains(comb);
+        let cut = |&line: &f64| {
+            let half = CUT / self.duration + MAINS_OFF * line;
+            let (low, high) = ((line - half).max(f - width), (line + half).min(f + width));
+            if is_mains || low >= high { 0.0 } else { self.between(&self.sums, 0.5 * (low + high), 0.5 * (high - low)) }
+        };
+        (self.between(&self.sums, f, width) - mains.iter().map(cut).sum::<f64>()).max(0.0)
+    }
+
+    /// Of sums over bins what is around a frequency (Hz).
+    fn between(&self, sums: &[f64], f: f64, width: f64) -> f64 {
+        let sum = |f: f64| sums[((f / self.bin).round().max(0.0) as usize).min(sums.len() - 1)];
+        sum(f + width + self.bin) - sum(f - width)
     }
 
     fn half_width(&self, frequency: f64) -> f64 {
@@ -135,6 +177,16 @@ impl Lines {
             .take_while(|&f| near(f).end < self.power.len());
         statistics::mean(&own.map(|f| libm::log1p(height(f))).collect::<Vec<_>>())
     }
+}
+
+/// The multiple of a frequency (Hz) that is nearest.
+fn nearest(base: f64, f: f64) -> f64 {
+    (f / base).round().max(1.0) * base
+}
+
+/// Whether a comb at this frequency (Hz) cannot be told from that of the mains.
+pub(crate) fn is_mains(frequency: f64) -> bool {
+    MAINS.iter().any(|&base| (nearest(base, frequency) / frequency - 1.0).abs() < IS_MAINS)
 }
 
 /// Mean power of the noise in each bin, from medians within `half` bins on both sides: the power of noise is

@@ -16,7 +16,7 @@
 
 use super::combs::{Comb, Combs, SLIP};
 use super::fault::{EXISTS, Fault};
-use super::shaft_lines::{CONFIRMS, ShaftLines, THERE};
+use super::shaft_lines::{CONFIRMS, DECIBELS, ShaftLines, THERE};
 use super::strengths::Strengths;
 use crate::spectrum::Spectrum;
 use brinell::geometry::kinematics::Frequencies;
@@ -45,7 +45,7 @@ const EXCLUDED: f64 = 0.2;
 /// # Errors
 /// What speaks for another one.
 pub(crate) fn check(
-    (signal, spectrum): (&[f64], &mut Spectrum),
+    (shaft, spectrum): (&ShaftLines, &mut Spectrum),
     rate: f64,
     combs: &Combs,
     nominal: Frequencies,
@@ -59,13 +59,13 @@ pub(crate) fn check(
     if combs.elsewhere.share >= EXISTS.max(comb.share / STRONGER) {
         others.extend(suiting(combs.elsewhere.frequency, Fault::None, nominal, speed));
     }
-    let shaft = ShaftLines::of(signal, rate);
     let stated = shaft.height(speed);
     let heights: Vec<f64> = others.iter().map(|&(_, other)| shaft.height(other)).collect();
     let highest = heights.iter().copied().fold(0.0, f64::max);
     let heights = format!(
-        "the shaft's own lines are {stated:.1} nepers of power above the noise at the stated speed, {highest:.1} at \
-         another one that is considered: {}",
+        "the shaft's own lines are {:.0} dB above the noise at the stated speed, {:.0} dB at another one: {}",
+        DECIBELS * stated,
+        DECIBELS * highest,
         in_words(&others)
     );
     if highest >= (stated + CONFIRMS).max(THERE) {
@@ -80,7 +80,7 @@ pub(crate) fn check(
     }
     let envelope = spectrum.squared_envelope(comb.band);
     check_strengths((&envelope, rate), (fault, comb), nominal, speed)
-        .map_err(|why| format!("{why}, and no lines of the shaft confirm the speed; it suits {}", in_words(&others)))
+        .map_err(|why| format!("{why}, and no lines of the shaft confirm the speed; that suits {}", in_words(&others)))
 }
 
 /// Whether the passages' strengths repeat with what a defect of this kind turns with, and not with what another does.
@@ -121,8 +121,8 @@ fn check_lines(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> 
     let between = &combs.between;
     if between.share >= AS_STRONG * comb.share {
         return Err(format!(
-            "between the lines of the comb at {:.2} Hz with {:.1} % of the variance there are those of one at {:.2} Hz \
-             with {:.1} %, limit {AS_STRONG} of the former; it suits {}",
+            "between the lines at multiples of {:.2} Hz ({:.1} % of the envelope's variation) there are those of {:.2} \
+             Hz ({:.1} %, limit {AS_STRONG} of the former); that suits {}",
             comb.frequency,
             100.0 * comb.share,
             between.frequency,
@@ -133,8 +133,8 @@ fn check_lines(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> 
     for (times, held) in [2.0, 3.0].into_iter().zip(combs.between_multiples) {
         if held < MISSING * comb.share {
             return Err(format!(
-                "all lines of the comb at {:.2} Hz with {:.1} % of the variance except {:.1} % are those of one at \
-                 {:.2} Hz, limit {MISSING} of all; it suits {}",
+                "the lines at multiples of {:.2} Hz ({:.1} % of the envelope's variation) are, except {:.1} %, those \
+                 of {:.2} Hz (limit {MISSING} of all); that suits {}",
                 comb.frequency,
                 100.0 * comb.share,
                 100.0 * held,
@@ -149,7 +149,8 @@ fn check_lines(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> 
 fn stronger(combs: &Combs, comb: &Comb, nominal: Frequencies, speed: f64) -> String {
     let other = &combs.elsewhere;
     format!(
-        "a comb at {:.2} Hz with {:.1} % of the variance is stronger than that at {:.2} Hz with {:.1} %; it suits {}",
+        "lines at multiples of {:.2} Hz ({:.1} % of the envelope's variation) are stronger than those of {:.2} Hz \
+         ({:.1} %); that suits {}",
         other.frequency,
         100.0 * other.share,
         comb.frequency,
@@ -167,6 +168,9 @@ fn suiting(frequency: f64, except: Fault, nominal: Frequencies, speed: f64) -> V
 }
 
 fn in_words(suiting: &[(Fault, f64)]) -> String {
+    if suiting.is_empty() {
+        return "no part at half to twice the stated speed".to_owned();
+    }
     let one = |(kind, speed): &(Fault, f64)| format!("{} at a shaft speed of {speed:.2} Hz", kind.name());
     suiting.iter().map(one).collect::<Vec<_>>().join(" or ")
 }

@@ -16,6 +16,8 @@ const WEAKEST: usize = 3;
 pub(super) const THERE: f64 = 3.0;
 /// By how much lines at one speed must be higher than those at another one to decide (nepers of power).
 pub(super) const CONFIRMS: f64 = 1.0;
+/// Decibels of a neper of power.
+pub(super) const DECIBELS: f64 = 4.343;
 /// Power that counts as nothing, as a share of the signal's mean: 60 dB down. Recordings have 1e-6 and more of noise
 /// near these lines. What simulations without noise hold there are aliases: harmonics of the passages beyond half the
 /// sampling rate, which fold to any low frequency.
@@ -24,7 +26,7 @@ const FAINT: f64 = 1e-6;
 const NEAR: f64 = 0.015;
 
 /// Spectrum of a signal in which the shaft's own lines are sought.
-pub(super) struct ShaftLines {
+pub(crate) struct ShaftLines {
     power: Vec<f64>,
     /// Least power that counts as noise.
     faint: f64,
@@ -35,7 +37,7 @@ pub(super) struct ShaftLines {
 }
 
 impl ShaftLines {
-    pub(super) fn of(signal: &[f64], rate: f64) -> Self {
+    pub(crate) fn of(signal: &[f64], rate: f64) -> Self {
         let (power, bin) = spectrum::power(signal, rate, signal.len());
         let faint = FAINT * statistics::mean(&power);
         Self { power, faint, bin, step: rate / (signal.len() * SHAFT) as f64 }
@@ -43,8 +45,20 @@ impl ShaftLines {
 
     /// Mean height of the lines of a speed (Hz), the most near it.
     pub(super) fn height(&self, speed: f64) -> f64 {
-        let mean = |speed: f64| statistics::mean(&self.lines(speed));
-        steps(speed * (1.0 - NEAR), speed * (1.0 + NEAR), self.step).map(mean).fold(0.0, f64::max)
+        self.highest(speed).1
+    }
+
+    /// The speed (Hz) near another one whose lines stand out, if any do.
+    pub(crate) fn speed_near(&self, speed: f64) -> Option<f64> {
+        let (speed, height) = self.highest(speed);
+        (height >= THERE).then_some(speed)
+    }
+
+    /// The speed (Hz) near another one whose lines are highest, and how high.
+    fn highest(&self, speed: f64) -> (f64, f64) {
+        let of = |speed: f64| (speed, statistics::mean(&self.lines(speed)));
+        let tried = steps(speed * (1.0 - NEAR), speed * (1.0 + NEAR), self.step).map(of);
+        tried.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((speed, 0.0))
     }
 
     /// Speeds from one to another (Hz), and the mean height of the weakest of their lines.
