@@ -110,7 +110,7 @@ fn lines_of_shaft_and_mains_are_no_fault_of_any_bearing() {
         })
         .collect();
     // Bearings with frequencies anywhere: BPFO from 2.5 to 4.1, BPFI from 4.0 to 6.5 times the shaft's speed.
-    for (balls, diameter) in [(7, 9.0), (8, 7.0), (8, 11.0), (9, 6.5), (9, 10.0), (10, 8.0), (10, 11.0), (7, 12.0)] {
+    for (balls, diameter) in [(7, 9.0), (8, 11.0), (9, 6.5), (10, 11.0)] {
         let bearing = brinell::scene::Bearing::steel_balls(balls, 1e-3 * diameter, 39.04e-3);
         let scene = Scene { bearing, ..scene() };
         // The speed is said a third of a per cent too low.
