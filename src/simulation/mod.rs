@@ -1,5 +1,6 @@
 //! One bearing that is stepped through time: integrator, variable table, plain state. Does no I/O and reads no clock.
 
+pub mod coupling;
 mod derivatives;
 mod error;
 pub mod exchange;

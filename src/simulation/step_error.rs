@@ -36,6 +36,21 @@ pub enum StepError {
         since: f64,
         cause: ContactError,
     },
+    /// A contact near the defect under a larger force than its map is made for.
+    #[error(
+        "contact force of element {element}, {angle_deg:.4} degrees from the defect's centre, {since:.6e} s into the \
+         communication step: {force:.0} N (limit of the contact map: {limit:.0} N); if the load is that large set \
+         contact.largest_force_n = {force:.0} in the scene and build anew, else check positions, velocities and masses \
+         of hosted rings"
+    )]
+    BeyondMap {
+        /// Number of the element, from 1.
+        element: usize,
+        angle_deg: f64,
+        force: f64,
+        limit: f64,
+        since: f64,
+    },
     /// An element left the space between the rings.
     #[error(
         "element {element} has left the bearing {since:.6e} s into the communication step: its path is {path:.3e} m, \

@@ -34,8 +34,9 @@ pub(crate) fn take_step(instance: &mut Borrowed, point: f64, step: f64) -> Resul
     }
     let clock = instance.clock.ok_or(Failure::NotSetUp)?;
     let reached = if early { clock.moved(point, under_way.elapsed()) } else { whole };
+    let length = under_way.elapsed();
     instance.simulation.end_step(under_way);
-    instance.finish_step(reached)?;
+    instance.finish_step(reached, length)?;
     Ok((reached.time, early))
 }
 

@@ -19,6 +19,8 @@ use crate::contact::error::ContactError;
 
 /// A map answers up to so many times its largest approach; above it by continuation.
 pub const CONTINUED: f64 = 1.5;
+/// What a contact map bounds.
+pub const MAPPED: &str = "equivalent approach in the contact map";
 
 /// Coefficients `c[j][i]` of q^i t^j, with q along the raceway and t along the path from 0 to 1.
 pub(super) type Cubic = [[f64; 4]; 4];
@@ -157,7 +159,7 @@ impl ContactMap {
     #[cold]
     pub(super) fn out_of_range(&self, approach: f64) -> ContactError {
         ContactError::OutOfRange {
-            quantity: "equivalent approach in the contact map",
+            quantity: MAPPED,
             value: approach,
             lower: f64::NEG_INFINITY,
             upper: CONTINUED * self.largest_approach,

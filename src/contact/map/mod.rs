@@ -16,6 +16,6 @@ pub use build::REFUSED;
 pub use contact_maps::ContactMaps;
 pub use flanks::Flanks;
 pub use format::{HEAD, TAIL};
-pub use lookup::ContactMap;
+pub use lookup::{CONTINUED, ContactMap, MAPPED};
 pub use plan::{MapPlan, Unmapped};
 pub use specification::{MapSpecification, Runner, Sequential};

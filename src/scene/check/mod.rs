@@ -367,5 +367,8 @@ fn check_ring(ring: &Ring, name: &'static str, of: &RingQuantities) -> Result<()
     } else if ring.load != [0.0; 2] {
         faults.passes(Err(SceneError::LoadNotInternal { ring: name, load: ring.load }));
     }
+    if ring.motion == Motion::Host && ring.mass != 0.0 {
+        faults.passes(HOST_MASS.check(ring.mass));
+    }
     faults.into_result()
 }

@@ -148,6 +148,7 @@ of_keys! {
     PRESSURE_VISCOSITY: "pressure coefficient of the film's viscosity",
         "film.pressure_viscosity_1_pa", 1.0, Inclusive(0.5e-8), Inclusive(4e-8);
     FILM_LAYER: "height of the film's oil", "film.layer_um", 1e6, Inclusive(0.01), Inclusive(1e4);
+    HOST_MASS: "mass that the host moves", "host.mass_kg", 1.0, Inclusive(1e-6), Inclusive(1e9);
     LARGEST_FORCE: "largest contact force", "contact.largest_force_n", 1.0, Inclusive(1e-3), Inclusive(1e9);
     /// Fewer are no grid, more take minutes.
     CONTACT_CELLS: "number of cells of the contact grid", "contact.cells", 1.0, Inclusive(8.0), Inclusive(256.0);

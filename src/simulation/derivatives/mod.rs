@@ -62,7 +62,11 @@ impl Simulation {
         self.along_time(&excitation);
         self.finish_change(references, acceleration, self.excitation(false));
         for (value, &reference) in values.iter_mut().zip(references) {
-            *value = self.changed(self.interface.quantities[reference as usize]);
+            let quantity = self.interface.quantities[reference as usize];
+            *value = self.changed(quantity);
+            if let Quantity::Force(ring, axis) = quantity {
+                self.note_rate(ring, axis, *value);
+            }
         }
         Ok(())
     }
@@ -384,7 +388,7 @@ impl Simulation {
             Quantity::ElementInnerForce(j) => forces.inner[j],
             Quantity::ElementOuterForce(j) => forces.outer[j],
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Count(_) => 0.0,
-            Quantity::SuggestedStep => 0.0,
+            Quantity::SuggestedStep | Quantity::CouplingError | Quantity::LargestCouplingError => 0.0,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::RadialClearance | Quantity::Parameter(_) => 0.0,
         }
     }

@@ -93,7 +93,8 @@ fn follows(output: Q, input: Input, defect: bool, scene: &Scene) -> bool {
         | Q::ElementAngle(_)
         | Q::RingAngle(_)
         | Q::ElementSpinAngle(_) => false,
-        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::RadialClearance | Q::SuggestedStep | Q::Parameter(_) => false,
+        Q::CouplingError | Q::LargestCouplingError | Q::SuggestedStep => false,
+        Q::Speed(_) | Q::Load(..) | Q::Count(_) | Q::RadialClearance | Q::Parameter(_) => false,
     }
 }
 
@@ -108,7 +109,8 @@ pub(in crate::simulation) fn starts_from(output: Q, known: Q, scene: &Scene) -> 
             _ => false,
         },
         Q::CageSpeed => turns(known, scene) || known == Q::Parameter(Parameter::CageSeed),
-        // At rest.
+        // At rest; no step has been taken.
+        Q::CouplingError | Q::LargestCouplingError => false,
         Q::Velocity(..) | Q::Acceleration(..) | Q::SensorAcceleration(_) => false,
         Q::Position(..)
         | Q::Force(..)

@@ -21,5 +21,5 @@ pub(in crate::simulation) use dependencies::{starts_from, turns};
 pub(in crate::simulation) use inputs::{Inputs, RingInputs};
 pub(in crate::simulation) use output_change::Change;
 pub(in crate::simulation) use quantity::Input;
-pub(in crate::simulation) use suggested_step::{Wiring, of_first_order, suggested_step};
+pub(in crate::simulation) use suggested_step::{Wiring, least_stiffness, of_first_order, suggested_step};
 pub(in crate::simulation) use variables::{COMPUTED, FIXED, Interface, as_many, not_settable, wrong_type};

@@ -130,6 +130,7 @@ impl Outputs<'_> {
             Quantity::ElementOuterForce(j) => self.forces.contacts.outer[j],
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) | Quantity::Stiffness(..) => return None,
             Quantity::SuggestedStep | Quantity::RadialClearance => return None,
+            Quantity::CouplingError | Quantity::LargestCouplingError => return None,
             Quantity::Speed(_) | Quantity::Load(..) | Quantity::Count(_) | Quantity::Parameter(_) => return None,
         })
     }

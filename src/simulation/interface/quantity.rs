@@ -75,6 +75,9 @@ pub enum Quantity {
     /// Half of the internal clearance that the host sets.
     RadialClearance,
     SuggestedStep,
+    /// Error of the coupling to a host.
+    CouplingError,
+    LargestCouplingError,
     Parameter(Parameter),
 }
 
@@ -152,6 +155,8 @@ impl Quantity {
             | Self::MeanForce(..)
             | Self::NextMeanForce(..)
             | Self::SuggestedStep
+            | Self::CouplingError
+            | Self::LargestCouplingError
             | Self::Stiffness(..)
             | Self::SensorAcceleration(_)
             | Self::Probe(_)

@@ -7,16 +7,21 @@
 //! with a rotor without a damper on a casing that stands, the worst case; dampers and a soft casing let it be three
 //! times that. `force` held is of first order: for 1 % it wants ωh = [`FIRST_ORDER`].
 //!
-//! How a host is wired it does not say, but what it reads after its first step shows it: [`Wiring`]. Not seen, and
-//! taken for granted, is that `mean_force` is taken in sequence and `next_mean_force` held. A host that reads `force`
-//! alone is taken for one that holds it: one that interpolates it in sequence could take the longer step.
+//! How a host is wired, and which mass it moves, shows after some steps: [`coupling`](crate::simulation::coupling). Before
+//! that, who reads after the first step `force` alone is taken for one that holds it ([`Wiring`]), and the mass is the
+//! scene's (`host.mass_kg`), or that of published models, 3.26 kg for a shaft and 6.64 kg for a housing. With m times the
+//! mass the step is √m times as long.
 //!
-//! The FMU does not know the mass of a ring that the host moves: it takes that of published models, 3.26 kg for a shaft
-//! and 6.64 kg for a housing. With m times the mass the step is √m times as long.
+//! A bearing that hardly touches is soft, and stiff a moment later: it counts as one on which an element is pressed by a
+//! hundredth of what it would carry under the static load rating C₀ ([`least_stiffness`]).
 
 use super::value_access::{FORCE, SECOND};
+use crate::contact::law::elastic_law;
+use crate::contact::rolling::RacewaySide;
 use crate::dynamics::parameters::{COORDINATES, Model};
-use crate::scene::{Motion, Ring};
+use crate::geometry::STRIBECK;
+use crate::geometry::load_rating::load_ratings;
+use crate::scene::{Bearing, Motion, Ring};
 
 /// ωh of a wiring of second order, and of first.
 const SECOND_ORDER: f64 = 0.1;
@@ -44,17 +49,41 @@ impl Wiring {
     }
 }
 
-/// The step (s) for the tangent stiffness −∂F/∂x of the inner ring, with a wiring of second order.
-pub(in crate::simulation) fn suggested_step(model: &Model, stiffness: &[[f64; COORDINATES]; COORDINATES]) -> f64 {
+/// Share of the static load rating under which a bearing is taken for touching.
+const TOUCHING: f64 = 0.01;
+
+/// Stiffness (N/m) of both contacts of one element under that share of what it would carry of the static load rating.
+pub(in crate::simulation) fn least_stiffness(bearing: &Bearing) -> f64 {
+    let force = TOUCHING * STRIBECK * load_ratings(bearing).fixed / bearing.element_count as f64;
+    let approach = |force: f64| -> f64 {
+        [RacewaySide::Inner, RacewaySide::Outer]
+            .map(|side| elastic_law(bearing, side).approach_under(force))
+            .iter()
+            .sum()
+    };
+    0.2 * force / (approach(1.1 * force) - approach(0.9 * force))
+}
+
+/// The step (s) for the tangent stiffness −∂F/∂x of the inner ring, with a wiring of second order; for the masses (kg)
+/// that the host moves, where they are known, and a stiffness that is no less than this.
+pub(in crate::simulation) fn suggested_step(
+    model: &Model,
+    stiffness: &[[f64; COORDINATES]; COORDINATES],
+    masses: [Option<f64>; 2],
+    least: f64,
+) -> f64 {
     let of_state = model.supports.inverse_masses();
-    let usual = [Ring::default_shaft(), Ring::default_housing()].map(|ring| 1.0 / ring.mass);
-    let inverse = |ring: usize| match [model.shaft.motion, model.housing.motion][ring] {
-        Motion::Host => usual[ring],
+    let rings = [&model.shaft, &model.housing];
+    let of_host = |ring: usize| {
+        let usual = [Ring::default_shaft(), Ring::default_housing()][ring].mass;
+        masses[ring].unwrap_or(if rings[ring].mass > 0.0 { rings[ring].mass } else { usual })
+    };
+    let inverse = |ring: usize| match rings[ring].motion {
+        Motion::Host => 1.0 / of_host(ring),
         Motion::Internal => of_state[2 * ring],
         Motion::Fixed => 0.0,
     };
-    // A bearing that carries nothing pushes nobody.
-    SECOND_ORDER / (stiffest(stiffness).max(1.0) * (inverse(0) + inverse(1))).sqrt()
+    SECOND_ORDER / (stiffest(stiffness).max(least) * (inverse(0) + inverse(1))).sqrt()
 }
 
 /// The step (s) with a force that is held, by that with a wiring of second order.

@@ -3,7 +3,7 @@
 
 use super::quantity::{Count, Parameter, Quantity};
 use super::value_access::{self, Access};
-use super::{Inputs, dependencies, table};
+use super::{Inputs, dependencies, least_stiffness, table};
 use crate::scene::{DegreesOfFreedom, Scene};
 use crate::simulation::VariableError;
 use crate::simulation::interface::table::{Causality, Dependencies, Kind, Variable};
@@ -17,6 +17,8 @@ pub(in crate::simulation) struct Interface {
     pub(in crate::simulation) quantities: Arc<[Quantity]>,
     access: Arc<[Access]>,
     pub(in crate::simulation) inputs: Inputs,
+    /// Stiffness (N/m) that a bearing is taken to have at least, where a step is suggested to its host.
+    pub(in crate::simulation) least_stiffness: f64,
 }
 
 impl Interface {
@@ -28,7 +30,8 @@ impl Interface {
         let in_space = scene.bearing.degrees_of_freedom != DegreesOfFreedom::Two;
         let axes = if in_space { 5 } else { 2 };
         let inputs = Inputs { frames: scene.turns() || in_space, axes, ..Inputs::new(&quantities, count) };
-        Self { table: table.into(), quantities: quantities.into(), access, inputs }
+        let least_stiffness = inputs.repeated.map_or(0.0, |_| least_stiffness(&scene.bearing));
+        Self { table: table.into(), quantities: quantities.into(), access, inputs, least_stiffness }
     }
 
     /// What each output depends on, in the order of the table.

@@ -311,6 +311,8 @@ fn as_recorded(output: Quantity) -> Recorded {
         | Quantity::MeanForce(..)
         | Quantity::NextMeanForce(..)
         | Quantity::SuggestedStep
+        | Quantity::CouplingError
+        | Quantity::LargestCouplingError
         | Quantity::Stiffness(..)
         | Quantity::CageSpeed
         | Quantity::CageTorque

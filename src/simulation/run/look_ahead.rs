@@ -24,10 +24,9 @@
 //! start.
 
 use super::life::{Simulation, UpToDate};
-use super::state::{Ended, History};
+use super::state::{Ended, Foreseen, History};
 use crate::dynamics::contacts::RingForces;
 use crate::dynamics::parameters::force_slot;
-use crate::numerics::plane::Vector;
 use crate::simulation::error::SimulationError;
 use crate::simulation::interface::{Inputs, Quantity, RingName};
 
@@ -38,9 +37,10 @@ const REACH: f64 = 3.0;
 impl Simulation {
     /// Finds the forces to hold over a next step of the length of the last, unless they are known.
     pub(super) fn look_ahead(&mut self) -> Result<(), SimulationError> {
-        if self.ahead.force.is_some() || !self.run.state.started || self.run.state.history.step == 0.0 {
+        if self.ahead.foreseen.force.is_some() || !self.run.state.started || self.run.state.history.step == 0.0 {
             return Ok(());
         }
+        let foreseen = self.ahead.foreseen;
         let kept = match self.ahead.state.take() {
             Some(mut kept) => {
                 kept.copy_from(&self.run.state);
@@ -54,14 +54,8 @@ impl Simulation {
         self.run.state.copy_from(&kept);
         self.ahead.state = Some(kept);
         self.invalidate(UpToDate::State);
-        self.ahead.force = Some(found?);
+        self.ahead.foreseen = Foreseen { force: Some(found?), ..foreseen };
         Ok(())
-    }
-
-    /// Mean force (N) of the bearing on its inner ring over the last step, or the force of the start.
-    pub fn mean_load(&self) -> f64 {
-        let [x, y, ..] = self.run.state.progress.mean_force;
-        Vector::new(x, y).norm()
     }
 
     /// The step (s) that a host which moves a ring should take, `solver.suggested_step`; `None` where it moves none.

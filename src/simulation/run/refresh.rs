@@ -22,12 +22,20 @@ impl Simulation {
         if !started && self.up_to_date < UpToDate::State {
             self.find_equilibrium()?;
         }
+        self.evaluate();
+        Ok(())
+    }
+
+    /// Evaluates it, unless it is that of the values set; of what has an equilibrium or has begun.
+    pub(super) fn evaluate(&mut self) {
+        if self.up_to_date >= UpToDate::Forces {
+            return;
+        }
         self.present.evaluate(&self.run, self.excitation(false));
-        if !started {
+        if !self.run.state.started {
             self.present.rest(&self.run.model.layout);
         }
         self.up_to_date = UpToDate::Forces;
-        Ok(())
     }
 
     /// Computes the tangent stiffness, once [`refresh`](Self::refresh) has been there.
@@ -52,8 +60,18 @@ impl Simulation {
     #[cold]
     #[inline(never)]
     fn step_by_wiring(&self) -> f64 {
-        let step = suggested_step(&self.run.model, &self.present.stiffness);
-        if self.holds_force() { of_first_order(step) } else { step }
+        let coupling = self.run.state.coupling.as_deref();
+        let masses = [0, 1].map(|ring| coupling.and_then(|coupling| coupling.mass(ring)));
+        let step = suggested_step(&self.run.model, &self.present.stiffness, masses, self.interface.least_stiffness);
+        let first = coupling.and_then(|coupling| coupling.is_of_first_order()).unwrap_or_else(|| self.holds_force());
+        if first { of_first_order(step) } else { step }
+    }
+
+    /// Error of the coupling as it is, and at most so far.
+    #[cold]
+    #[inline(never)]
+    fn coupling_errors(&self) -> [f64; 2] {
+        self.run.state.coupling.as_ref().map_or([0.0; 2], |coupling| coupling.errors())
     }
 
     /// Value of a real output.
@@ -62,11 +80,13 @@ impl Simulation {
         match quantity {
             Quantity::MeanForce(ring, axis) => self.run.state.progress.mean_force[force_slot(ring.index(), axis)],
             Quantity::NextMeanForce(ring, axis) => {
-                let force = self.ahead.force.as_ref().unwrap_or(&self.run.state.progress.mean_force);
+                let force = self.ahead.foreseen.force.as_ref().unwrap_or(&self.run.state.progress.mean_force);
                 force[force_slot(ring.index(), axis)]
             }
             Quantity::Stiffness(row, column) => self.present.stiffness[row][column],
             Quantity::SuggestedStep => self.step_by_wiring(),
+            Quantity::CouplingError => self.coupling_errors()[0],
+            Quantity::LargestCouplingError => self.coupling_errors()[1],
             other => outputs.value(other).unwrap_or(f64::NAN),
         }
     }

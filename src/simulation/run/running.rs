@@ -2,6 +2,8 @@
 
 use super::excitation;
 use super::state::{Ended, FirstInputs, History, State};
+use crate::contact::error::ContactError;
+use crate::contact::map::MAPPED;
 use crate::dynamics::parameters::{Excitation, Layout, Model, WholeAngle};
 use crate::scene::Scene;
 use crate::simulation::Method;
@@ -51,6 +53,7 @@ impl Run {
             integers,
             input_rates: vec![[None; 2]; interface.inputs.count],
             history: History::none(interface.inputs.count),
+            coupling: interface.inputs.repeated.map(|_| Box::default()),
             first: FirstInputs::none(interface.inputs.count),
         };
         Self { workspace: Workspace::new(&model), model: Arc::new(model), recorder, method: Method::Automatic, state }
@@ -139,7 +142,22 @@ impl Run {
         self.state.input_rates.copy_from_slice(&inputs.rates[..count]);
     }
 
-    pub(in crate::simulation) fn failed(&self, cause: StepError) -> SimulationError {
+    /// Why a step could not be taken, a contact beyond its map in forces.
+    #[cold]
+    pub(in crate::simulation) fn failed(&self, scene: &Scene, cause: StepError) -> SimulationError {
+        let cause = match cause {
+            StepError::Contact {
+                element,
+                angle_deg,
+                since,
+                cause: ContactError::OutOfRange { quantity: MAPPED, value, upper, .. },
+                ..
+            } if value < 1e3 * upper => {
+                let [force, limit] = setup::forces_of([value, upper], scene);
+                StepError::BeyondMap { element, angle_deg, force, limit, since }
+            }
+            other => other,
+        };
         SimulationError::Step { time: self.state.time, cause }
     }
 }

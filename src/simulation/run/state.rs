@@ -3,6 +3,7 @@
 
 use crate::dynamics::contacts::RingForces;
 use crate::dynamics::parameters::WholeAngle;
+use crate::simulation::coupling::Coupling;
 use crate::simulation::integration::Progress;
 use crate::simulation::interface::Angles;
 
@@ -24,6 +25,8 @@ pub struct State {
     /// First and second derivatives of inputs for the next step, where the host has given any, by index.
     pub(in crate::simulation) input_rates: Vec<[Option<f64>; 2]>,
     pub(super) history: History,
+    /// What is known of the host; `None` where it moves no ring.
+    pub(super) coupling: Option<Box<Coupling>>,
     pub(super) first: FirstInputs,
 }
 
@@ -102,11 +105,21 @@ impl FirstInputs {
     }
 }
 
+/// What a host has asked of the next step, since the last.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Foreseen {
+    /// Forces on inner and outer ring to hold over it (N).
+    pub(super) force: Option<RingForces>,
+    /// How forces change with the time as it begins (N/s); 0 where nobody has asked.
+    pub(super) rate: Option<RingForces>,
+}
+
 /// A look at the next step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Ahead {
-    /// Forces on inner and outer ring to hold over it (N); `None` if nobody has looked since the last.
-    pub(super) force: Option<RingForces>,
+    pub(super) foreseen: Foreseen,
+    /// The same of the step that was taken last.
+    pub(super) before: Foreseen,
     /// Where the state is kept meanwhile.
     pub(super) state: Option<Box<State>>,
 }
@@ -114,7 +127,7 @@ pub(super) struct Ahead {
 impl Ahead {
     /// Nothing is known; if looks are to be expected there is room for the state, so that they allocate nothing.
     pub(super) fn begin(&mut self, state: &State, expected: bool) {
-        self.force = None;
+        self.foreseen = Foreseen::default();
         if expected && self.state.is_none() {
             self.state = Some(Box::new(state.clone()));
         }
@@ -136,7 +149,9 @@ impl State {
     /// Whether such steps can have been taken.
     pub(super) fn steps_are_possible(&self) -> bool {
         let mut history = self.history.clone();
-        let finite = history.numbers().all(|number| number.is_finite());
+        let mut coupling = self.coupling.clone();
+        let coupling = coupling.iter_mut().flat_map(|coupling| coupling.numbers());
+        let finite = history.numbers().chain(coupling).all(|number| number.is_finite());
         let first = std::iter::once(&self.first.time).chain(&self.first.values).all(|number| number.is_finite());
         finite && first && self.history.step >= 0.0 && self.history.earlier.iter().all(|step| *step >= 0.0)
     }
@@ -145,12 +160,15 @@ impl State {
     pub(super) fn forget_steps(&mut self) {
         let inputs = self.input_rates.len();
         (self.history, self.first) = (History::none(inputs), FirstInputs::none(inputs));
+        if let Some(coupling) = &mut self.coupling {
+            **coupling = Coupling::default();
+        }
     }
 
     /// Copies a state that was taken earlier. What a step began with the first time is no part of the state before that
     /// time, and stays.
     pub(super) fn go_back_to(&mut self, earlier: &Self, ahead: &mut Ahead) {
-        ahead.force = None;
+        ahead.foreseen = Foreseen::default();
         if self.first.are_of(earlier.time) {
             self.copy_all_but_first(earlier);
         } else {
@@ -160,8 +178,20 @@ impl State {
 
     /// Copies all of it but the first inputs of a step.
     fn copy_all_but_first(&mut self, other: &Self) {
-        let Self { time, started, cage, frames, ended, progress, reals, integers, input_rates, history, first: _ } =
-            self;
+        let Self {
+            time,
+            started,
+            cage,
+            frames,
+            ended,
+            progress,
+            reals,
+            integers,
+            input_rates,
+            history,
+            coupling,
+            first: _,
+        } = self;
         (*time, *started, *ended) = (other.time, other.started, other.ended);
         (*cage, *frames) = (other.cage, other.frames);
         progress.copy_from(&other.progress);
@@ -169,5 +199,6 @@ impl State {
         integers.copy_from_slice(&other.integers);
         input_rates.copy_from_slice(&other.input_rates);
         history.copy_from(&other.history);
+        coupling.clone_from(&other.coupling);
     }
 }

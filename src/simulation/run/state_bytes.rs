@@ -72,6 +72,8 @@ impl State {
             *rate = given.then_some(value);
         }
         visit_steps(&mut self.first, &mut self.history, field)?;
+        let mut coupling = self.coupling.iter_mut().flat_map(|coupling| coupling.numbers());
+        coupling.try_for_each(|number| real(number, field))?;
         for cell in progress.cells.iter_mut() {
             count32(cell, field)?;
         }

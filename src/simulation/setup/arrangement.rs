@@ -11,7 +11,8 @@ use crate::contact::law::elastic_law;
 use crate::contact::love::EdgeSoftness;
 use crate::contact::rolling::RacewaySide;
 use crate::geometry::hertz_constant::share_of_ring;
-use crate::scene::{Bearing, ContactEdge, DefectOn, Scene};
+use crate::geometry::load_rating::load_ratings;
+use crate::scene::{Bearing, ContactEdge, DefectOn, Motion, Scene};
 use crate::surface::{Surface, SurfaceError, rounded};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -200,15 +201,23 @@ const LEAST_FORCE: f64 = 1000.0;
 /// their maps.
 const PREFERRED: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0];
 
+/// Share of the static load rating that a host may press with where a scene says nothing: more than bearings are run
+/// under (assumed).
+const HOSTED_SHARE: f64 = 0.3;
+
 /// Force (N) up to which the contact map of a scene reaches: what the scene asks for, or else four times the static
-/// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number.
+/// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number. Where the host
+/// moves a ring and nothing loads the other, F is 0.3 of the static load rating.
 pub fn largest_force(scene: &Scene) -> f64 {
     if let Some(force) = scene.contact.largest_force {
         return force;
     }
     let load = [scene.shaft.load, scene.housing.load].iter().map(|f| libm::hypot(f[0], f[1])).fold(0.0, f64::max);
-    let needed =
-        4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust_share(scene);
+    let (hosted, thrust) =
+        ([&scene.shaft, &scene.housing].iter().any(|ring| ring.motion == Motion::Host), thrust_share(scene));
+    let load =
+        if hosted && load == 0.0 && thrust == 0.0 { HOSTED_SHARE * load_ratings(&scene.bearing).fixed } else { load };
+    let needed = 4.0 * crate::geometry::STRIBECK * load / scene.bearing.element_count as f64 + 4.0 * thrust;
     let mut decade = LEAST_FORCE;
     while 10.0 * decade < needed {
         decade *= 10.0;

@@ -18,3 +18,4 @@ pub use tracks::with_operating_angle;
 
 pub(in crate::simulation) use model::Setup;
 pub(in crate::simulation) use parameters::{parameter, start_values};
+pub(in crate::simulation) use specification::forces_of;

@@ -2,7 +2,7 @@
 
 use super::arrangement::{largest_approach, largest_force, softness_of_edges};
 use crate::contact::love::Resolution;
-use crate::contact::map::MapSpecification;
+use crate::contact::map::{CONTINUED, MapSpecification};
 use crate::contact::rolling::RacewaySide;
 use crate::scene::{Bearing, ContactLaw, Scene};
 
@@ -45,4 +45,23 @@ pub fn map_specification(scene: &Scene, side: RacewaySide) -> MapSpecification {
         edges: softness_of_edges(scene),
         ..usual
     }
+}
+
+/// Forces (N) that belong to an approach (m) and to its limit, on the raceway whose map has that limit.
+pub(in crate::simulation) fn forces_of([approach, limit]: [f64; 2], scene: &Scene) -> [f64; 2] {
+    let bearing = &prepared(scene);
+    let (inner, outer, largest) = (RacewaySide::Inner, RacewaySide::Outer, largest_force(scene));
+    let miss = |side: RacewaySide| (limit / largest_approach(bearing, side, largest) - CONTINUED).abs();
+    let side = if miss(inner) <= miss(outer) { inner } else { outer };
+    [approach, limit].map(|approach| {
+        let (mut low, mut high) = (0.0, largest);
+        while largest_approach(bearing, side, high) < approach {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            if largest_approach(bearing, side, middle) < approach { low = middle } else { high = middle }
+        }
+        high
+    })
 }

@@ -189,3 +189,43 @@ fn contacts_beside_the_slices_of_a_topography_are_warned_of_once() {
     let beside = host.get_integers(&counter).unwrap()[0];
     assert!(warnings() == 1 && beside > 1, "{beside}");
 }
+
+/// A ball bearing in a housing that stands, whose shaft the host moves.
+const HOSTED: &str = "name = \"hosted\"\n[bearing]\ncatalogue = \"6205\"\n[shaft]\nmotion = \"host\"\nspeed_hz = 25.0\n\
+                      [housing]\nmotion = \"fixed\"\n";
+
+/// Warnings of 5 ms in which a mass of 2 kg below 600 N swings on the bearing: it takes this force, read before the
+/// bearing's step or after it, and gives its velocity or leaves it out.
+fn warnings_of_a_mass(force: &str, sequential: bool, gives_velocity: bool) -> Vec<String> {
+    let host = Host::with(Resources::new(HOSTED, None, "resources"), "coupled", true);
+    let motion = ["shaft.y", "shaft.vy", "shaft.ay"].map(|name| host.reference(name));
+    let force = [host.reference(&format!("shaft.{force}.y"))];
+    // The force falls as the mass rises from here, to 600 N some micrometres above.
+    let (mut y, mut v, mut a, h) = (-22e-6, 0.0, 0.0, 1e-5);
+    assert_eq!(host.begin(None, 0.0, None), Status::Ok, "{:?}", host.lines());
+    assert_eq!((host.set(&motion[..1], &[y]), host.exit()), (Status::Ok, Status::Ok), "{:?}", host.lines());
+    host.lines();
+    for step in 0..500 {
+        let before = host.get(&force).unwrap()[0];
+        assert_eq!(host.set(&motion, &[y, if gives_velocity { v } else { 0.0 }, a]), Status::Ok);
+        assert_eq!(host.step(f64::from(step) * h, h), Status::Ok, "{:?}", host.lines());
+        let taken = if sequential { host.get(&force).unwrap()[0] } else { before };
+        a = (taken - 600.0) / 2.0;
+        (y, v) = (y + h * (v + 0.5 * h * a), v + h * a);
+        a = if gives_velocity { a } else { 0.0 };
+    }
+    host.lines().into_iter().map(|line| line.message).collect()
+}
+
+#[test]
+fn a_coupling_is_warned_of_by_what_it_loses_and_not_by_its_step() {
+    let held = warnings_of_a_mass("force", false, true);
+    assert!((1..4).contains(&held.len()), "{held:?}");
+    for words in ["host.coupling_error", "2.00 kg of the host on the inner ring", "force of its start"] {
+        assert!(held[0].starts_with("communication step of 1e-5 s: ") && held[0].contains(words), "{words}: {held:?}");
+    }
+    // The same step, and the same gap at the end of each.
+    assert_eq!(warnings_of_a_mass("mean_force", true, true), [""; 0]);
+    let still = warnings_of_a_mass("mean_force", true, false);
+    assert!(still.len() == 1 && still[0].contains("its velocities are 0"), "{still:?}");
+}

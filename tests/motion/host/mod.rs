@@ -2,6 +2,9 @@
 
 mod between_runs;
 mod by_name;
+mod catalogue_rows;
 mod coupling;
+mod coupling_error;
 mod dependencies;
 mod derivatives;
+mod wirings;

@@ -14,10 +14,20 @@ use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
 
-/// Suggested steps from which on one is warned of: errors beyond some 10 % with a wiring of second order, and of first.
-const TOO_LONG: [f64; 2] = [3.0, 10.0];
-/// Growth of the force from which on the step is looked at again: frequencies grow with its sixth root, by 1.4.
-const HEAVIER: f64 = 8.0;
+/// What a host has been warned of.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Warned {
+    /// Contacts that a shoulder cuts.
+    pub(super) of_shoulders: bool,
+    /// Contacts beside the slices of a topography.
+    pub(super) of_track: bool,
+    /// Positions without velocities.
+    pub(super) of_velocity: bool,
+    /// A ring that jumped.
+    pub(super) of_jump: bool,
+    /// The largest error of the coupling.
+    pub(super) of_error: f64,
+}
 
 /// One instance of the FMU.
 #[derive(Debug)]
@@ -50,14 +60,8 @@ pub(crate) struct Instance {
     pub(crate) rows: Vec<ValueReference>,
     /// The file that the recorder's samples go to.
     recording: Option<Recording>,
-    /// Longest step that has been looked at (s), and the largest force under which it was (N).
-    looked_at: [f64; 2],
-    /// Whether the host held forces then.
-    looked_at_held: bool,
-    /// Whether it has warned of contacts that a shoulder cuts.
-    warned_of_shoulders: bool,
-    /// Whether it has warned of contacts beside the slices of a topography.
-    warned_of_track: bool,
+    /// What it has warned of.
+    pub(super) warned: Warned,
     /// Strings handed out last, which stay valid until strings are read again.
     texts: Vec<CString>,
 }
@@ -80,10 +84,7 @@ impl Instance {
             updates: None,
             rows: Vec::new(),
             recording: None,
-            looked_at: [0.0; 2],
-            looked_at_held: false,
-            warned_of_shoulders: false,
-            warned_of_track: false,
+            warned: Warned::default(),
             texts: Vec::new(),
         }
     }
@@ -96,8 +97,7 @@ impl Instance {
         self.rebuild();
         self.mode = Mode::Instantiated;
         self.clock = None;
-        (self.looked_at, self.looked_at_held) = ([0.0; 2], false);
-        (self.warned_of_shoulders, self.warned_of_track) = (false, false);
+        self.warned = Warned::default();
         self.last_step = Status::Ok;
         Ok(unstored)
     }
@@ -127,7 +127,7 @@ impl Instance {
     pub(crate) fn take_step(&mut self, point: f64, step: f64) -> Result<(), Failure> {
         let after = self.begin_step(point, step)?;
         self.simulation.step(step)?;
-        self.finish_step(after)
+        self.finish_step(after, step)
     }
 
     /// Checks point and step. Gives the clock at the step's end.
@@ -138,81 +138,18 @@ impl Instance {
         let after = self.clock.as_ref().ok_or(Failure::NotSetUp)?.after(point, step)?;
         #[cfg(feature = "panic-on-demand")]
         self.logger.panic_on_demand();
-        let ([longest, heaviest], load) = (self.looked_at, self.simulation.mean_load());
-        let held = self.simulation.holds_force();
-        if step > 1.1 * longest || load > HEAVIER * heaviest || held != self.looked_at_held {
-            (self.looked_at, self.looked_at_held) = ([longest.max(step), heaviest.max(load)], held);
-            self.look_at_length(step)?;
-        }
         Ok(after)
-    }
-
-    /// Warns of a step that is too long for the casing; looks at each length once, at none that is hardly longer, and
-    /// again where the force has grown.
-    #[cold]
-    fn look_at_length(&mut self, step: f64) -> Result<(), Failure> {
-        let Some(suggested) = self.simulation.suggested_step()? else { return Ok(()) };
-        let held = self.looked_at_held;
-        if step > TOO_LONG[usize::from(held)] * suggested {
-            self.logger.line(Status::Warning, || {
-                let wiring = if held {
-                    "where force is held, as all that is read suggests, and for a hundred times as much where \
-                     next_mean_force is held, mean_force taken in sequence or derivatives passed on"
-                } else {
-                    "where next_mean_force is held, mean_force taken in sequence or derivatives passed on, and for a \
-                     hundredth of it where force is held; the error grows by the step's square"
-                };
-                format!(
-                    "communication step of {step:e} s: the rings on this casing ask for some {suggested:.1e} s \
-                     (solver.suggested_step) {wiring}."
-                )
-            });
-        }
-        Ok(())
     }
 
     /// Notes that the model has come to where this clock is.
     #[inline]
-    pub(crate) fn finish_step(&mut self, reached: Clock) -> Result<(), Failure> {
+    pub(crate) fn finish_step(&mut self, reached: Clock, step: f64) -> Result<(), Failure> {
         if let Some(recording) = &mut self.recording {
             recording.keep_up(&mut self.simulation)?;
         }
         self.clock = Some(reached);
         self.last_step = Status::Ok;
-        if !self.warned_of_shoulders && self.simulation.has_truncated_contacts() {
-            self.warn_of_shoulders(reached.time);
-        }
-        if !self.warned_of_track && self.simulation.has_off_track_contacts() {
-            self.warn_of_track(reached.time);
-        }
-        Ok(())
-    }
-
-    /// Says once that forces are no longer those of whole ellipses.
-    #[cold]
-    fn warn_of_shoulders(&mut self, time: f64) {
-        self.warned_of_shoulders = true;
-        self.logger.line(Status::Warning, || {
-            format!(
-                "until {time:?} s a raceway's shoulder has cut the contact of an element \
-                 (solver.truncated_contacts, element[j].shoulder): forces stay those of whole ellipses, up to 2 % too \
-                 large with an eighth of the ellipse cut off and 9 % with a quarter."
-            )
-        });
-    }
-
-    /// Says once that a topography is no longer met where a ball is.
-    #[cold]
-    fn warn_of_track(&mut self, time: f64) {
-        self.warned_of_track = true;
-        self.logger.line(Status::Warning, || {
-            format!(
-                "until {time:?} s a contact was beside the slices across the groove for which the map of a topography \
-                 is made, by more than a quarter of its ellipse's half-length (solver.off_track_contacts): it meets \
-                 the outermost of them instead. bearing.operating_angle_deg says where they are; contact.law = \
-                 \"love\" has no such bounds."
-            )
-        });
+        self.warn(reached.time, step)
     }
 
     /// Lets a tolerance of the host's tighten that of the time integration, and never loosen it: hosts hand in their

@@ -11,6 +11,7 @@ mod mode;
 mod snapshot;
 pub(crate) mod snapshots;
 pub(crate) mod values;
+mod warnings;
 
 pub(crate) use addressing::{Addressing, Listing, ValueCount};
 pub(crate) use clock::Clock;

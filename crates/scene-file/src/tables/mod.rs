@@ -21,9 +21,10 @@ pub(crate) use rings::{HousingTable, ProbeTable, SensorTable, ShaftTable};
 
 pub(crate) use waviness::WavinessTable;
 
+use brinell::scene::quantity::HOST_MASS;
 use brinell::scene::{
     Contact, ContactEdge, ContactLaw, Damping, DegreesOfFreedom, Experiment, Motion, Recorder, RecorderFilter,
-    RepeatedInputs, Scene,
+    RepeatedInputs, Ring, Scene,
 };
 use one_or_more::OneOrMore;
 use schemars::JsonSchema;
@@ -71,7 +72,7 @@ pub(crate) struct SceneFile {
     /// Time integration.
     #[serde(default)]
     solver: SolverTable,
-    /// How a host that moves a ring repeats steps; without it inputs are those of the step's start.
+    /// What is known of a host that moves a ring.
     host: Option<HostTable>,
     /// Samples taken inside the step.
     recorder: Option<RecorderTable>,
@@ -92,6 +93,9 @@ impl SceneFile {
         let shaft = faults.take(self.shaft.into_ring(freedom));
         let housing = faults.take(self.housing.into_ring(freedom));
         let sensors = faults.take(self.sensor.each("sensor", SensorTable::into_sensor));
+        let mass = self.host.as_ref().and_then(|host| host.mass_kg);
+        faults.take(mass.map_or(Ok(()), |mass| HOST_MASS.check(mass)).map_err(TableFault::Scene));
+        let [shaft, housing] = [shaft, housing].map(|ring| ring.map(|ring| of_host(ring, mass)));
         let repeated_inputs = match self.host.map(|host| host.repeated_inputs) {
             Some(_) if [&shaft, &housing].into_iter().flatten().all(|ring| ring.motion != Motion::Host) => {
                 faults.0.push(TableFault::NoHost);
@@ -242,12 +246,24 @@ impl Default for SolverTable {
     }
 }
 
-/// How a host that moves a ring repeats steps.
+/// What is known of a host that moves a ring.
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HostTable {
+    /// Mass that it moves with a ring, for `solver.suggested_step` until its steps have shown it; without it 3.26 kg of a
+    /// shaft and 6.64 kg of a housing.
+    mass_kg: Option<f64>,
     /// What inputs are when a step is repeated from the same communication point: those of its start, or of its end.
+    #[serde(default)]
     repeated_inputs: RepeatedInputs,
+}
+
+/// A ring, with the mass that its host moves where it has one.
+fn of_host(ring: Ring, mass: Option<f64>) -> Ring {
+    match mass {
+        Some(mass) if ring.motion == Motion::Host => Ring { mass, ..ring },
+        _ => ring,
+    }
 }
 
 /// Samples taken inside the step.

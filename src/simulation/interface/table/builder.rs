@@ -98,6 +98,7 @@ impl<'a> Builder<'a> {
         let variability = match quantity {
             // A mean belongs to a communication step.
             Quantity::MeanForce(..) | Quantity::NextMeanForce(..) => Variability::Discrete,
+            Quantity::CouplingError | Quantity::LargestCouplingError => Variability::Discrete,
             _ => Variability::Continuous,
         };
         self.push(name, text, kind, (Causality::Output, variability), quantity);

@@ -37,4 +37,26 @@ impl Builder<'_> {
             Q::Parameter(Parameter::RepeatedInputs),
         );
     }
+
+    /// What the coupling loses: last of all.
+    pub(super) fn coupling_error(&mut self) {
+        if RINGS.into_iter().all(|ring| self.motion(ring) != Motion::Host) {
+            return;
+        }
+        self.output(
+            "host.coupling_error",
+            "Error that the coupling has made in the position of hosted rings, by what the host gave until the last \
+             step began: rms over rms of their way from the start, over about the last 20 ms",
+            Q::CouplingError,
+            Unit::One,
+            0.01,
+        );
+        self.output(
+            "host.largest_coupling_error",
+            "Largest host.coupling_error so far",
+            Q::LargestCouplingError,
+            Unit::One,
+            0.01,
+        );
+    }
 }

@@ -19,6 +19,7 @@ pub fn rows(scene: &Scene, surfaces: &[Surface]) -> Vec<(Variable, Quantity)> {
     builder.parameters();
     builder.coupling();
     builder.between_runs();
+    builder.coupling_error();
     builder.into_rows()
 }
 

@@ -17,6 +17,7 @@ use crate::dynamics::parameters::Excitation;
 use crate::scene::RepeatedInputs;
 use crate::simulation::Simulation;
 use crate::simulation::interface::value_access::SECOND;
+use crate::simulation::run::state::Foreseen;
 
 impl Simulation {
     /// Takes what the host has set for a step of `step` (s): as it is, or for the step's end.
@@ -70,7 +71,7 @@ impl Simulation {
     /// Notes a step of `step` (s) that has been taken, with the inputs where it has brought them.
     #[inline]
     pub(super) fn note_step(&mut self, excitation: &Excitation, step: f64) {
-        self.ahead.force = None;
+        self.ahead.foreseen = Foreseen::default();
         let (count, history) = (self.interface.inputs.count, &mut self.run.state.history);
         let axes = self.interface.inputs.axes;
         let velocity = |ring: usize, axis: usize| excitation.motion[ring][axis].0[1];

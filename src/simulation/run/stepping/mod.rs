@@ -5,6 +5,7 @@
 //! part of the step before, and begins another with the inputs as they are.
 
 mod host_inputs;
+mod lost_in_coupling;
 
 use super::life::{Simulation, UpToDate};
 use super::running::InputValues;
@@ -20,6 +21,8 @@ pub struct StepUnderWay {
     excitation: Excitation,
     control: Control,
     advance: Advance,
+    /// Whether rings have been moved inside it.
+    is_moved: bool,
 }
 
 /// An inspection of where a step has come to: what the simulation has to forget of it.
@@ -59,6 +62,7 @@ impl Simulation {
         self.take_inputs(step);
         let excitation = self.advance(step)?;
         self.note_step(&excitation, step);
+        self.note_coupling(&excitation, step);
         Ok(())
     }
 
@@ -68,7 +72,7 @@ impl Simulation {
         let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
         let known = is_evaluated.then_some(&self.present.evaluation);
         let advanced = self.run.stepper(&excitation, control, known).advance(step);
-        advanced.map_err(|cause| self.run.failed(cause))?;
+        advanced.map_err(|cause| self.run.failed(&self.setup.scene, cause))?;
         self.run.commit(&self.interface.inputs, &excitation, step);
         Ok(excitation)
     }
@@ -112,8 +116,8 @@ impl Simulation {
         let Begun { excitation, control, is_evaluated } = self.prepare(step)?;
         let known = is_evaluated.then_some(&self.present.evaluation);
         let begun = self.run.stepper(&excitation, control, known).start(step);
-        let advance = begun.map_err(|cause| self.run.failed(cause))?;
-        Ok(StepUnderWay { excitation, control, advance })
+        let advance = begun.map_err(|cause| self.run.failed(&self.setup.scene, cause))?;
+        Ok(StepUnderWay { excitation, control, advance, is_moved: false })
     }
 
     /// Takes one integration step of a communication step.
@@ -121,17 +125,22 @@ impl Simulation {
     /// # Errors
     /// What cannot be integrated; the communication step is then lost.
     pub fn advance_once(&mut self, under_way: &mut StepUnderWay) -> Result<(), SimulationError> {
-        let StepUnderWay { excitation, control, advance } = under_way;
+        let StepUnderWay { excitation, control, advance, .. } = under_way;
         let taken = self.run.stepper(excitation, *control, None).advance_once(advance);
-        taken.map_err(|cause| self.run.failed(cause))
+        taken.map_err(|cause| self.run.failed(&self.setup.scene, cause))
     }
 
     /// Ends a communication step where it has come to.
     pub fn end_step(&mut self, under_way: StepUnderWay) {
-        let StepUnderWay { excitation, control, advance } = under_way;
+        let StepUnderWay { excitation, control, advance, is_moved } = under_way;
         self.run.stepper(&excitation, control, None).finish(&advance);
         self.run.commit(&self.interface.inputs, &excitation, advance.tau);
         self.note_step(&excitation, advance.tau);
+        if is_moved {
+            self.interrupt_coupling();
+        } else {
+            self.note_coupling(&excitation, advance.tau);
+        }
     }
 
     /// Stands where a step has come to, as it would if it ended there, except for what belongs to the step as a whole:
@@ -142,7 +151,7 @@ impl Simulation {
         let (time, cage, frames, ended) = (state.time, state.cage, state.frames, state.ended);
         let inputs = self.run.input_values();
         // Nobody looks ahead from within a step.
-        self.ahead.force = Some(self.run.state.progress.mean_force);
+        self.ahead.foreseen.force = Some(self.run.state.progress.mean_force);
         self.run.commit(&self.interface.inputs, &under_way.excitation, under_way.advance.tau);
         Inspection { time, cage, frames, ended, inputs, arrived: self.run.input_values() }
     }
@@ -157,10 +166,11 @@ impl Simulation {
         if self.run.input_values() != inspection.arrived && !under_way.is_done() {
             // Its rings are moved inside the step.
             self.note_wiring(SECOND);
-            let StepUnderWay { excitation, control, advance } = &*under_way;
+            let StepUnderWay { excitation, control, advance, .. } = &*under_way;
             self.run.stepper(excitation, *control, None).finish_part(advance);
             let mut next = self.begin_part(advance.end - advance.tau)?;
             next.advance.follow(advance);
+            next.is_moved = true;
             *under_way = next;
             return Ok(());
         }
@@ -183,7 +193,7 @@ impl Simulation {
         let is_evaluated = self.begins_evaluated();
         let excitation = if is_evaluated { self.present.excitation } else { self.excitation(true) };
         self.up_to_date = UpToDate::State;
-        self.ahead.force = None;
+        self.ahead.before = std::mem::take(&mut self.ahead.foreseen);
         // The speed goes straight, so that films are thickest at an end.
         for tau in [0.0, step] {
             self.setup.check_films(&self.run.model, &excitation, tau)?;

@@ -293,7 +293,10 @@ fn asking_for_derivatives_changes_nothing_that_follows() {
             for host in [&asked, &silent] {
                 assert_eq!(host.step(time, 2e-4), Status::Ok);
             }
-            assert_eq!(asked.get(&unknowns).unwrap(), silent.get(&unknowns).unwrap(), "{scene}");
+            // But for the error of the coupling: who asks for rates of forces is taken to use them.
+            let follows: Vec<_> = outputs(table).into_iter().filter(|v| !v.name.ends_with("coupling_error")).collect();
+            let follows = references(&follows);
+            assert_eq!(asked.get(&follows).unwrap(), silent.get(&follows).unwrap(), "{scene}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::by_inputs::{SCENES, inputs, outputs, references};
 use crate::two::Host;
-use brinell::simulation::interface::table::{Kind, Unit};
+use brinell::simulation::interface::table::{Kind, Unit, Variability};
 use brinell_fmi::fmi2::*;
 use std::ptr;
 
@@ -11,7 +11,8 @@ fn derivatives_of_outputs_by_time_are_what_short_steps_show() {
     for scene in SCENES {
         let host = Host::pressed(scene);
         let table = host.table();
-        let outputs: Vec<_> = outputs(table).into_iter().filter(|v| !v.name.contains("mean_force")).collect();
+        // What belongs to a communication step has no derivative.
+        let outputs: Vec<_> = outputs(table).into_iter().filter(|v| v.variability == Variability::Continuous).collect();
         let unknowns = references(&outputs);
         let mut time = 0.0;
         for point in 0..8 {
