@@ -96,6 +96,12 @@ pub enum SurfaceError {
     /// A measurement as long as the raceway or longer.
     #[error("defect profile: it is {length_mm:.6} mm long, it must be below {limit_mm:.6} mm, {limit}")]
     TooLong { length_mm: f64, limit_mm: f64, limit: &'static str },
+    /// A topography wider than any raceway.
+    #[error(
+        "defect profile: axial_mm has a width of {width_mm:.3} mm: it must be below {limit_mm:.3} mm, the pitch \
+         diameter; are these micrometres?"
+    )]
+    TooWide { width_mm: f64, limit_mm: f64 },
     /// A rim so far above the deepest point that an element there would meet it with its side.
     #[error(
         "defect profile: from its highest point to its deepest it is {height_um:.3} um: it must be below {limit_um:.3} \

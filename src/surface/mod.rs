@@ -173,6 +173,13 @@ impl Surface {
                 limit: longest.what,
             });
         }
+        if let Self::Topography(topography) = self
+            && let [first, .., last] = *topography.axials()
+            && last - first >= bearing.pitch_diameter
+        {
+            let (width_mm, limit_mm) = ((last - first) * 1e3, bearing.pitch_diameter * 1e3);
+            return Err(SurfaceError::TooWide { width_mm, limit_mm });
+        }
         let (arc, depth) = match self {
             Self::Profile(profile) => profile.farthest(),
             Self::Topography(topography) => topography.farthest(),

@@ -13,13 +13,13 @@ const MISSED: f64 = 0.1;
 /// A topography that is deepest beside the track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BesideTrack {
-    /// The largest depth or height (µm).
+    /// The largest depth (µm).
     pub deepest_um: f64,
     /// The place nearest to the track where it is about as deep (mm), as the file counts.
     pub at_mm: f64,
     /// First and last place on which elements run (mm): one of balls.
     pub track_mm: [f64; 2],
-    /// The largest depth or height there (µm).
+    /// The largest depth there (µm).
     pub on_track_um: f64,
 }
 
@@ -51,9 +51,9 @@ impl BesideTrack {
     }
 }
 
-/// The largest depth or height (m) along the arc at an axial coordinate (m).
+/// The largest depth (m) along the arc at an axial coordinate (m).
 fn largest_at(surface: &Topography, axial: f64) -> f64 {
-    surface.arcs().iter().map(|&arc| surface.depth_at(arc, axial).abs()).fold(0.0, f64::max)
+    surface.arcs().iter().map(|&arc| surface.depth_at(arc, axial)).fold(0.0, f64::max)
 }
 
 impl fmt::Display for BesideTrack {

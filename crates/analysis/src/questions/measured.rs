@@ -145,10 +145,11 @@ impl<'a> Line<'a> {
             let last = self.depths.len() - 1;
             let before = k.saturating_sub(NEAR)..k.saturating_sub(2);
             let after = (k + 2).min(last)..(k + NEAR).min(last);
-            height > ALONE * before.chain(after).map(step).fold(0.0, f64::max)
+            // An end that is nearer to 0 than the points beside it is where a defect's edge begins.
+            let is_edge = (k < 2 || k + 2 > last) && self.depths[k].abs() < self.smooth[k].abs();
+            !is_edge && height > ALONE * before.chain(after).map(step).fold(0.0, f64::max)
         };
-        // At the ends the median is of fewer points.
-        (2..self.depths.len().saturating_sub(2)).filter(alone)
+        (0..self.depths.len()).filter(alone)
     }
 
     /// The form of a body of this radius (m), if the ends have it and it is more than the roughness.
@@ -279,7 +280,9 @@ mod tests {
 
     #[test]
     fn one_spike_is_asked_about_and_edges_grooves_and_rough_floors_are_not() {
-        for (at, height) in [(3.0, 60.0), (-2.6, -15.0), (0.4, 40.0), (-0.7, -25.0)] {
+        let inside = [(3.0, 60.0), (-2.6, -15.0), (0.4, 40.0), (-0.7, -25.0)];
+        let at_ends = [(-4.0, 60.0), (-3.98, 40.0), (3.98, -20.0), (4.0, -40.0)];
+        for (at, height) in inside.into_iter().chain(at_ends) {
             let spiked = trace(8.0, 0.2, |arc, depth| if (arc - at).abs() < 1e-3 { depth + height } else { depth });
             let found = asked(DefectOn::Outer, Measured::default(), &spiked);
             assert!(matches!(found[..], [AsMeasured::Spike { arc_mm, .. }] if (arc_mm - at).abs() < 1e-3), "{found:?}");

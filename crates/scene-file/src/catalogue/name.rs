@@ -6,12 +6,13 @@
 //! tolerances are without effect and named as such; what is not known, or would change the bearing, is asked about.
 
 use super::clearance::ClearanceClass;
-use super::suffixes::{Meaning, codes};
+use super::suffixes::{Meaning, class_within, codes};
 use super::{CatalogueBearing, Designation, Kind, NotInCatalogue, catalogue};
 
 /// Makers of bearings, who stand in front of a name or behind it.
-const MAKERS: [&str; 64] = [
+const MAKERS: [&str; 75] = [
     "NTN-SNR",
+    "NSK-RHP",
     "SKF",
     "FAG",
     "INA",
@@ -75,9 +76,19 @@ const MAKERS: [&str; 64] = [
     "FYH",
     "DODGE",
     "MCGILL",
+    "RBC",
+    "IKO",
+    "KML",
+    "NRB",
+    "NSB",
+    "SEALMASTER",
+    "AMERICAN",
+    "THK",
+    "ROLLWAY",
+    "CMB",
 ];
 /// What may stand in front of a number, and what it is.
-const PREFIXES: [(&str, Front); 17] = [
+const PREFIXES: [(&str, Front); 19] = [
     ("D/W", Front::WithoutEffect("stainless steel, taken for bearing steel")),
     ("ICOS", Front::WithoutEffect("an oil seal")),
     ("5S", Front::Hybrid),
@@ -95,11 +106,16 @@ const PREFIXES: [(&str, Front); 17] = [
     ("S", Front::WithoutEffect("stainless steel, taken for bearing steel")),
     ("W", Front::WithoutEffect("stainless steel, taken for bearing steel")),
     ("B", Front::WithoutEffect("a spindle bearing")),
+    // Of NTN.
+    ("EC-", Front::WithoutEffect("against creep of the outer ring")),
+    ("AC-", Front::WithoutEffect("against creep of the outer ring")),
 ];
 /// Letters before the number of a roller bearing, which say where its flanges are.
 const FLANGES: [&str; 4] = ["NUP", "NU", "NJ", "N"];
 /// Codes of contact angles behind the number of an angular contact bearing, and the catalogue's letter for each.
-const ANGLES: [(&str, &str); 5] = [("AC", "AC"), ("A5", "AC"), ("B", "B"), ("C", "C"), ("E", "AC")];
+/// NTN has a U in front, which is the design.
+const ANGLES: [(&str, &str); 8] =
+    [("UAD", "AC"), ("UC", "C"), ("AD", "AC"), ("AC", "AC"), ("A5", "AC"), ("B", "B"), ("C", "C"), ("E", "AC")];
 
 /// What stands in front of a number.
 #[derive(Clone, Copy)]
@@ -162,8 +178,10 @@ fn without_maker(text: &str) -> (Option<&'static str>, String) {
     (None, text.to_owned())
 }
 
-/// Letters of a word in front of a name, at least: fewer are a kind of bearing.
+/// Letters of a word in front of a name, at least: fewer are a kind of bearing, if not a whole number follows.
 const LEAST_OF_WORD: usize = 4;
+/// Digits of a ball bearing's number that no kind of bearing stands in front of: UC 205 is an insert bearing.
+const WHOLE: usize = 4;
 
 const SEPARATORS: [char; 11] = [' ', '-', '/', '.', ',', '(', ')', '+', ':', ';', '*'];
 
@@ -252,10 +270,15 @@ impl Parts {
                 return rest.to_owned();
             }
         }
-        let word = text.split(SEPARATORS).next().filter(|word| word.chars().count() >= LEAST_OF_WORD);
-        if let Some(word) = word.filter(|word| word.chars().all(char::is_alphabetic)) {
+        let Some((word, rest)) = text.split_once(SEPARATORS) else { return text.to_owned() };
+        let rest = rest.trim_start_matches(SEPARATORS);
+        let is_long = word.chars().count() >= LEAST_OF_WORD && word.chars().all(char::is_alphabetic);
+        let is_whole = rest.bytes().take_while(u8::is_ascii_digit).count() >= WHOLE
+            || FLANGES.iter().any(|letters| rest.starts_with(letters));
+        let is_number = FLANGES.contains(&word) || word == "ER" || word.bytes().all(|c| c.is_ascii_digit());
+        if is_long || (is_whole && !is_number && word.bytes().any(|c| c.is_ascii_alphabetic())) {
             self.asked.push((word.to_owned(), None));
-            return self.take_front(text[word.len()..].trim_start_matches(SEPARATORS));
+            return self.take_front(rest);
         }
         text.to_owned()
     }
@@ -273,9 +296,13 @@ impl Parts {
         }
         for (index, word) in words.into_iter().enumerate() {
             match codes(&word, kind) {
-                None if index == 0 && attached && word.chars().count() == 1 => return None,
-                None => self.asked.push((word, None)),
                 Some(all) => all.into_iter().for_each(|(code, meaning)| self.take(code, meaning)),
+                None if index == 0 && attached && word.chars().count() == 1 => return None,
+                None => {
+                    let (class, unknown) = class_within(&word);
+                    class.into_iter().for_each(|class| self.take(word.clone(), Meaning::Clearance(class)));
+                    self.asked.push((unknown.to_owned(), None));
+                }
             }
         }
         Some(())

@@ -41,7 +41,7 @@ const ALL: [(&str, &[&str]); 10] = [
             "2HRS", "RSC", "2RSC", "RST", "2RST", "RSS", "2RSS", "RSN", "2RSN", "RZ", "2RZ", "2ELS", "LS", "2LS", "RD",
             "2RD", "RK", "2RK", "RU", "2RU", "2RDT", "DU", "DDU", "DD", "DDW", "DW", "VV", "LB", "LLB", "LU", "LLU",
             "LH", "LLH", "LLUA", "LUA", "NSE", "2NSE", "NSE#", "2NSE#", "NSL", "2NSL", "NK", "2NK", "NKE", "2NKE",
-            "EE", "FT", "PP", "RR", "FF", "2RF", "2F", "TT", "UU", "2RSJEM", "RSJEM",
+            "EE", "FT", "PP", "RR", "FF", "2RF", "2F", "TT", "UU"
         ],
     ),
     (
@@ -51,7 +51,7 @@ const ALL: [(&str, &[&str]); 10] = [
             "TN", "TN#", "TNH", "TNG", "TNGH", "TV", "TVP", "TVP#", "TVPB", "TVH", "TVHB", "TVM", "TPA", "TPB", "TP",
             "TPX", "T", "T#", "T#X", "T##", "T#G", "TA", "TB", "TH", "TY", "TYN", "TR", "W", "Y", "YA", "YN", "L",
             "L1", "L1B", "LA", "ML", "MP", "MR", "MPA", "MPB", "MPBX", "MPY", "MPAX", "F", "F#", "FA", "FB", "FP",
-            "FPA", "FPB", "FY", "P", "PH", "PHA", "PHAS", "PA", "PB", "G1", "G2", "G15", "A2S", "AT", "JEM",
+            "FPA", "FPB", "FY", "P", "PH", "PHA", "PHAS", "PA", "PB", "G1", "G2", "G15", "A2S", "AT",
         ],
     ),
     (
@@ -119,8 +119,29 @@ pub(super) fn codes(word: &str, kind: Kind) -> Option<Vec<(String, Meaning)>> {
     if !word.is_ascii() || word.len() > LONGEST {
         return None;
     }
-    let all = split(word, kind)?;
+    // 2RSHYB is no 2RSH: a word for ceramic elements stands at the end.
+    let hybrid = HYBRID.iter().find(|code| code.len() > 2 && word.len() > code.len() && word.ends_with(**code));
+    let mut all = split(&word[..word.len() - hybrid.map_or(0, |code| code.len())], kind)?;
+    all.extend(hybrid.map(|code| ((*code).to_owned(), Meaning::Hybrid)));
+    // NSK's E behind a class is that of noise.
+    if let [.., (_, Meaning::Clearance(_)), (code, meaning)] = &mut all[..]
+        && code == "E"
+    {
+        *meaning = Meaning::WithoutEffect("noise class");
+    }
     (all.iter().filter(|(code, _)| code.len() == 1).count() <= MOST_LETTERS).then_some(all)
+}
+
+/// The clearance class with which an unknown word begins or ends, and the rest of it.
+pub(super) fn class_within(word: &str) -> (Option<ClearanceClass>, &str) {
+    let class = |part: Option<&str>| part.filter(|part| part.starts_with('C') && part != &"CN").and_then(ClearanceClass::of);
+    let (front, back) = (word.get(..2), word.len().checked_sub(2).and_then(|at| word.get(at..)));
+    let goes_on = word.chars().nth(2).is_some_and(|c| c.is_ascii_alphabetic());
+    match (class(front).filter(|_| goes_on), class(back)) {
+        (Some(class), _) => (Some(class), &word[2..]),
+        (None, Some(class)) => (Some(class), &word[..word.len() - 2]),
+        (None, None) => (None, word),
+    }
 }
 
 fn split(word: &str, kind: Kind) -> Option<Vec<(String, Meaning)>> {
@@ -142,6 +163,10 @@ fn split(word: &str, kind: Kind) -> Option<Vec<(String, Meaning)>> {
 fn meaning(code: &str, kind: Kind) -> Option<Meaning> {
     if HYBRID.iter().any(|pattern| fits(code, pattern)) {
         return Some(Meaning::Hybrid);
+    }
+    // SKF's mark of bearings for electric motors: C3, and a grease.
+    if code == "JEM" {
+        return ClearanceClass::of("C3").map(Meaning::Clearance);
     }
     // C2 to C9 of a single angular contact bearing are those of sets.
     if let Some(class) = ClearanceClass::of(code) {
@@ -188,6 +213,8 @@ mod tests {
         assert_eq!(of("ECML", Kind::Roller), words(&["EC", "ML"]));
         assert_eq!(of("C3HT", Kind::DeepGroove), words(&["C3", "HT"]));
         assert_eq!(of("C3L", Kind::DeepGroove), words(&["C3L"]));
+        assert_eq!(of("2RSHYB", Kind::DeepGroove), words(&["2RS", "HYB"]));
+        assert_eq!(of("2RSJEM", Kind::DeepGroove), words(&["2RS", "JEM"]));
         for word in ["QXYZ", "C6C7", "2RS?", "Ü", "ABCDEF"] {
             assert_eq!(of(word, Kind::DeepGroove), None, "{word}");
         }
