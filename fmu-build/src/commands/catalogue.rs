@@ -111,15 +111,20 @@ fn derived(of: &Derived) -> String {
 /// How the equivalent load is worked out.
 fn equivalent(of: &Derived, f0: Option<f64>) -> String {
     let (light, heavy) = (of.ratings.factors(0.0), of.ratings.factors(of.ratings.fixed));
+    let digits = |factor: f64| (1e3 * factor).round() / 1e3;
     match (f0, light, heavy) {
         (Some(_), Some(one), Some(other)) if one == other => format!(
             "equivalent load P = Fr, above Fa/Fr = {} P = {} Fr + {} Fa (ISO 281)\n",
-            one.e, one.radial, one.axial
+            digits(one.e), digits(one.radial), digits(one.axial)
         ),
         (Some(f0), Some(one), Some(other)) => format!(
             "equivalent load P = Fr, above Fa/Fr = e P = {} Fr + Y Fa (ISO 281): e {} to {}, Y {} to {} as f0 Fa/C0 \
              grows, f0 = {f0:.1}\n",
-            one.radial, one.e, other.e, one.axial, other.axial
+            digits(one.radial),
+            digits(one.e),
+            digits(other.e),
+            digits(one.axial),
+            digits(other.axial)
         ),
         _ => "equivalent load P = Fr (ISO 281)\n".to_owned(),
     }

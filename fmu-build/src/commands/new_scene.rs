@@ -156,8 +156,18 @@ impl Loads {
             Some(load) => (load, "as asked for".to_owned()),
             None => (share, format!("assumed: 5 % of the static rating, {:.1} kN by ISO 76", 1e-3 * rating)),
         };
-        // A contact that leans lifts a ring that nothing pushes along the axis.
+        // A contact that leans lifts a ring that nothing pushes along the axis, or that is pushed the other way.
         let leans = read.bearing.inside.contact_angle.is_some();
+        if let Some(axial) = axial.filter(|axial| leans && *axial < 0.0) {
+            bail!(
+                "--axial {axial} N: a {} carries thrust one way only: it must be above 0; in the scene a negative \
+                 bearing.contact_angle_deg turns the bearing round",
+                read.bearing.designation
+            );
+        }
+        // Of a hosted ring the file has no load to ask about, and of others the size of all of it.
+        load.filter(|_| asked.hosted).into_iter().for_each(|load| ask_unit(bearing, "shaft.load_n", load, "--load"));
+        axial.into_iter().for_each(|axial| ask_unit(bearing, "shaft.load_n", axial, "--axial"));
         let (axial, axial_source) = match axial {
             Some(axial) => (Some(axial), "as asked for"),
             None if leans => (Some(across), "as much along the axis, assumed"),
