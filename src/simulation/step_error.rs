@@ -80,7 +80,8 @@ pub enum StepError {
     /// A ball that has climbed out of its groove.
     #[error(
         "contact angle of element {element} {angle_deg:.2} degrees (limit {limit_deg} degrees) {since:.6e} s into the \
-         communication step: no groove reaches there; check axial loads, tilts and prescribed positions"
+         communication step: the ball is on the shoulder of its groove, which is not modelled; more axial load, less \
+         load across, less tilt or clearance keep it in the groove"
     )]
     TooSteep {
         /// Number of the element, from 1.
