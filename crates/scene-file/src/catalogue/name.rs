@@ -6,87 +6,15 @@
 //! tolerances are without effect and named as such; what is not known, or would change the bearing, is asked about.
 
 use super::clearance::ClearanceClass;
-use super::suffixes::{Meaning, class_within, codes};
+use super::suffixes::{MARK_OF_MOTORS, Meaning, class_within, codes};
 use super::{CatalogueBearing, Designation, Kind, NotInCatalogue, catalogue};
 
 /// Makers of bearings, who stand in front of a name or behind it.
-const MAKERS: [&str; 75] = [
-    "NTN-SNR",
-    "NSK-RHP",
-    "SKF",
-    "FAG",
-    "INA",
-    "SCHAEFFLER",
-    "NSK",
-    "NTN",
-    "SNR",
-    "KOYO",
-    "JTEKT",
-    "NACHI",
-    "TIMKEN",
-    "FAFNIR",
-    "MRC",
-    "RHP",
-    "ZKL",
-    "ZVL",
-    "KINEX",
-    "URB",
-    "KYK",
-    "NKE",
-    "ORS",
-    "GMN",
-    "IBC",
-    "SLF",
-    "FBJ",
-    "NMB",
-    "EZO",
-    "BARDEN",
-    "GRW",
-    "KBC",
-    "LYC",
-    "HRB",
-    "ZWZ",
-    "C&U",
-    "TPI",
-    "NBC",
-    "STEYR",
-    "DKF",
-    "SNFA",
-    "REXNORD",
-    "LINK-BELT",
-    "CRAFT",
-    "NIS",
-    "ISB",
-    "CX",
-    "VXB",
-    "BECO",
-    "PFI",
-    "FERSA",
-    "PEER",
-    "HOFFMANN",
-    "EBC",
-    "HCH",
-    "CYSD",
-    "DYZV",
-    "AST",
-    "STIEBER",
-    "NORMA",
-    "RIV",
-    "ASAHI",
-    "FYH",
-    "DODGE",
-    "MCGILL",
-    "RBC",
-    "IKO",
-    "KML",
-    "NRB",
-    "NSB",
-    "SEALMASTER",
-    "AMERICAN",
-    "THK",
-    "ROLLWAY",
-    "CMB",
-];
+const MAKERS: &str = "NTN-SNR NSK-RHP SKF FAG INA SCHAEFFLER NSK NTN SNR KOYO JTEKT NACHI TIMKEN FAFNIR MRC RHP \
+    ZKL ZVL KINEX URB KYK NKE ORS GMN IBC SLF FBJ NMB EZO BARDEN GRW KBC LYC HRB ZWZ C&U TPI NBC \
+    STEYR DKF SNFA REXNORD LINK-BELT CRAFT NIS ISB CX VXB BECO PFI FERSA PEER HOFFMANN EBC HCH \
+    CYSD DYZV AST STIEBER NORMA RIV ASAHI FYH DODGE MCGILL RBC IKO KML NRB NSB SEALMASTER \
+    AMERICAN THK ROLLWAY CMB";
 /// What may stand in front of a number, and what it is.
 const PREFIXES: [(&str, Front); 19] = [
     ("D/W", Front::WithoutEffect("stainless steel, taken for bearing steel")),
@@ -166,7 +94,7 @@ fn plain(name: &str) -> String {
 /// The maker at either end of a name, and the rest.
 fn without_maker(text: &str) -> (Option<&'static str>, String) {
     let is_end = |c: Option<char>| c.is_none_or(|c| !c.is_ascii_alphabetic());
-    for maker in MAKERS {
+    for maker in MAKERS.split(' ') {
         if let Some(rest) = text.strip_prefix(maker).filter(|rest| is_end(rest.chars().next())) {
             return (Some(maker), rest.trim_start_matches(SEPARATORS).to_owned());
         }
@@ -248,6 +176,8 @@ fn inserted(rest: &str) -> Option<Number<'_>> {
 #[derive(Default)]
 struct Parts {
     classes: Vec<ClearanceClass>,
+    /// The class of a mark that stands for several things, where no other is said.
+    implied: Option<ClearanceClass>,
     hybrid: bool,
     without_effect: Vec<(String, &'static str)>,
     asked: Vec<(String, Option<&'static str>)>,
@@ -273,9 +203,10 @@ impl Parts {
         let Some((word, rest)) = text.split_once(SEPARATORS) else { return text.to_owned() };
         let rest = rest.trim_start_matches(SEPARATORS);
         let is_long = word.chars().count() >= LEAST_OF_WORD && word.chars().all(char::is_alphabetic);
-        let is_whole = rest.bytes().take_while(u8::is_ascii_digit).count() >= WHOLE
-            || FLANGES.iter().any(|letters| rest.starts_with(letters));
-        let is_number = FLANGES.contains(&word) || word == "ER" || word.bytes().all(|c| c.is_ascii_digit());
+        let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+        let of_roller = FLANGES.iter().filter_map(|letters| rest.strip_prefix(letters)).map(digits).max();
+        let is_whole = digits(rest) >= WHOLE || of_roller.is_some_and(|count| count >= WHOLE - 1);
+        let is_number = FLANGES.contains(&word) || word == "ER" || digits(word) >= WHOLE - 1;
         if is_long || (is_whole && !is_number && word.bytes().any(|c| c.is_ascii_alphabetic())) {
             self.asked.push((word.to_owned(), None));
             return self.take_front(rest);
@@ -313,6 +244,7 @@ impl Parts {
             Meaning::WithoutEffect(what) => self.without_effect.push((code, what)),
             Meaning::Asked(what) => self.asked.push((code, Some(what))),
             Meaning::Hybrid => self.hybrid = true,
+            Meaning::Clearance(class) if code == MARK_OF_MOTORS => self.implied = Some(class),
             Meaning::Clearance(class) => {
                 if !self.classes.contains(&class) {
                     self.classes.push(class);
@@ -330,7 +262,7 @@ impl Parts {
         if let [one, other, ..] = self.classes[..] {
             return Err(NotInCatalogue::TwoClasses { name: name.to_owned(), one, other });
         }
-        let class = self.classes.first().copied();
+        let class = self.classes.first().copied().or(self.implied);
         let rollers = bearing.inside.roller_length.is_some();
         let clearance = match bearing.inside.contact_angle {
             None => class.unwrap_or(ClearanceClass::NORMAL).range(bearing.boundary[0], rollers),

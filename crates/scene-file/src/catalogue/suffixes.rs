@@ -41,7 +41,7 @@ const ALL: [(&str, &[&str]); 10] = [
             "2HRS", "RSC", "2RSC", "RST", "2RST", "RSS", "2RSS", "RSN", "2RSN", "RZ", "2RZ", "2ELS", "LS", "2LS", "RD",
             "2RD", "RK", "2RK", "RU", "2RU", "2RDT", "DU", "DDU", "DD", "DDW", "DW", "VV", "LB", "LLB", "LU", "LLU",
             "LH", "LLH", "LLUA", "LUA", "NSE", "2NSE", "NSE#", "2NSE#", "NSL", "2NSL", "NK", "2NK", "NKE", "2NKE",
-            "EE", "FT", "PP", "RR", "FF", "2RF", "2F", "TT", "UU"
+            "EE", "FT", "PP", "RR", "FF", "2RF", "2F", "TT", "UU",
         ],
     ),
     (
@@ -105,6 +105,9 @@ const ASKED_OF_BALLS: [(&str, &[&str]); 1] = [(MORE_BALLS, &["E"])];
 const ASKED_OF_MINIATURES: [(&str, &[&str]); 2] = [(CLEARANCE, &["MC#"]), (MORE_BALLS, &["E"])];
 const ASKED_OF_ROLLERS: [(&str, &[&str]); 2] = [(FULL, &["V", "VH", "CV"]), (TAPER, &["K", "K30"])];
 
+/// SKF's mark of bearings for electric motors: C3, and a grease.
+pub(super) const MARK_OF_MOTORS: &str = "JEM";
+
 /// Words for elements of silicon nitride.
 const HYBRID: [&str; 6] = ["HC", "HC#", "HYBRID", "HYB", "SI3N4", "SN24"];
 
@@ -134,7 +137,8 @@ pub(super) fn codes(word: &str, kind: Kind) -> Option<Vec<(String, Meaning)>> {
 
 /// The clearance class with which an unknown word begins or ends, and the rest of it.
 pub(super) fn class_within(word: &str) -> (Option<ClearanceClass>, &str) {
-    let class = |part: Option<&str>| part.filter(|part| part.starts_with('C') && part != &"CN").and_then(ClearanceClass::of);
+    let class =
+        |part: Option<&str>| part.filter(|part| part.starts_with('C') && part != &"CN").and_then(ClearanceClass::of);
     let (front, back) = (word.get(..2), word.len().checked_sub(2).and_then(|at| word.get(at..)));
     let goes_on = word.chars().nth(2).is_some_and(|c| c.is_ascii_alphabetic());
     match (class(front).filter(|_| goes_on), class(back)) {
@@ -164,8 +168,7 @@ fn meaning(code: &str, kind: Kind) -> Option<Meaning> {
     if HYBRID.iter().any(|pattern| fits(code, pattern)) {
         return Some(Meaning::Hybrid);
     }
-    // SKF's mark of bearings for electric motors: C3, and a grease.
-    if code == "JEM" {
+    if code == MARK_OF_MOTORS {
         return ClearanceClass::of("C3").map(Meaning::Clearance);
     }
     // C2 to C9 of a single angular contact bearing are those of sets.
