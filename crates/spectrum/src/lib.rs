@@ -4,13 +4,8 @@
 //! takes the signal as periodic: the first and last milliseconds are worthless, and callers leave the outer passages
 //! alone.
 //!
-<<<<<<< HEAD
 //! A crate of its own: the transforms are generic, and are compiled here once for all who use them. So nothing public
 //! is generic: it would be compiled with its transforms in each caller.
-=======
-//! A crate of its own: the transforms are generic, and are compiled here once for all who use them. So nothing
-//! public is generic: it would be compiled with its transforms in each caller.
->>>>>>> 1a2817b0 (Names of more makers, classes within unknown words, JEM; long lines)
 
 mod even_filter;
 

@@ -150,7 +150,7 @@ fn build(project: &Project, options: Build) -> Result<()> {
         }
         Ok(model)
     };
-    // Scenes first: a typing error should not wait for a compiler. One that cannot be built does not keep others from it.
+    // Scenes first: a typing error should not wait for a compiler. One that cannot be built does not stop the others.
     let mut refused = Vec::new();
     let mut models = Vec::new();
     for path in &options.scenes {

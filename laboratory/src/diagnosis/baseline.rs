@@ -2,8 +2,8 @@
 //!
 //! The band with the highest kurtosis of the envelope is taken (Antoni 2007, *Fast computation of the kurtogram*, with
 //! halved bands only). In the squared envelope's spectrum each of the first three harmonics of BPFO, BPFI and 2 BSF
-//! counts by the highest value within 2 % over the median near it. The kind with the highest mean is named, from six
-//! times on.
+//! counts by the highest value within 2 % over the median near it. The kind with the highest mean is named, from
+//! six times on.
 
 use brinell::geometry::kinematics;
 use brinell::scene::Bearing;
