@@ -11,7 +11,6 @@ mod mode;
 mod snapshot;
 pub(crate) mod snapshots;
 pub(crate) mod values;
-mod warnings;
 
 pub(crate) use addressing::{Addressing, Listing, ValueCount};
 pub(crate) use clock::Clock;

@@ -1,8 +1,8 @@
 //! What a run is warned of after a step: results that are less than they seem.
 
-use super::failure::Failure;
-use super::life::Instance;
+use super::Instance;
 use crate::c_interface::Status;
+use crate::instance::failure::Failure;
 
 /// Error of a coupling from which on it is warned of.
 const LARGE_ERROR: f64 = 0.05;

@@ -1,15 +1,17 @@
 //! One instance: the model, where it is in time, in which mode, and how it talks to the host.
 
+mod warnings;
+
 use std::ffi::{CString, c_char};
 
-use super::addressing::Addressing;
-use super::clock::Clock;
-use super::failure::Failure;
-use super::intermediate_updates::IntermediateUpdates;
-use super::mode::{Function, Mode};
-use super::snapshot::Snapshot;
-use super::snapshots::Snapshots;
 use crate::c_interface::{FmuState, Logger, Status, ValueReference, c_string};
+use crate::instance::addressing::Addressing;
+use crate::instance::clock::Clock;
+use crate::instance::failure::Failure;
+use crate::instance::intermediate_updates::IntermediateUpdates;
+use crate::instance::mode::{Function, Mode};
+use crate::instance::snapshot::Snapshot;
+use crate::instance::snapshots::Snapshots;
 use crate::resources::SharedModel;
 use brinell::recording::{Recording, Unstored};
 use brinell::simulation::{Simulation, VariableError};
