@@ -78,8 +78,8 @@ impl Instance {
         self.logger.line(Status::Warning, || {
             format!(
                 "communication step of {step:e} s: in the step before {time:?} s a hosted ring was moved by \
-                 {jump:.1e} m that its velocities do not explain, an impact. Set position and velocity of the same instant, \
-                 and in initialization mode the position at which the run begins."
+                 {jump:.1e} m that its velocities do not explain, an impact. Set position and velocity of the same \
+                 instant, and in initialization mode the position at which the run begins."
             )
         });
     }
