@@ -95,9 +95,9 @@ pub fn contact_without_answer(kind: Kind) -> Row {
     bearing.set("shaft.load.y", -2e4);
     let found = (0..100).try_for_each(|_| bearing.0.step(1e-4));
     let message = found.clone().expect_err("beyond the map").to_string();
-    let named = ["element 1, -", "degrees from the defect's centre", "The outer ring's centre is at ("];
+    let named = ["element 1, -", "degrees from the defect's centre", "contact.largest_force_n = "];
     assert!(named.iter().all(|part| message.contains(part)) && !message.contains("NaN"), "{message}");
-    refused("a contact on the defect's edge beyond its map", "equivalent approach in the contact map", found, &bearing)
+    refused("a contact on the defect's edge beyond its map", "limit of the contact map", found, &bearing)
 }
 
 /// The same, of elements that are there before the first step.
@@ -111,7 +111,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
         let mut bearing = Named::new(scene);
         bearing.set(name, value);
         let message = bearing.0.initialize(0.0).unwrap_err().to_string();
-        let named = ["element 1, ", "finds no balance", "equivalent approach in the contact map", "largest_force_n"];
+        let named = ["element 1, ", "finds no balance", "limit of the contact map", "largest_force_n"];
         assert!(named.iter().all(|part| message.contains(part)) && !message.contains("NaN"), "{name}: {message}");
     }
 }

@@ -9,9 +9,9 @@ use brinell_tests::resources::Resources;
 use std::sync::Arc;
 use std::thread;
 
-/// The most that a call may take (bytes) as tests are compiled: a step with five degrees of freedom took 78 kB, what
-/// makes an instance 58 kB.
-const LIMIT: usize = 80_000;
+/// The most that a call may take (bytes) as tests are compiled: a step of a hosted ring with five degrees of freedom
+/// takes 101 kB, what makes an instance 58 kB.
+const LIMIT: usize = 104_000;
 /// How far down is looked (bytes), and what is left out at the top, where the helpers themselves are.
 const DEPTH: usize = 160 << 10;
 const OWN: usize = 512;
@@ -94,7 +94,7 @@ fn life<V: Version>(resources: &Arc<Resources>, derive: impl Fn(&Host<V>, &[u32]
 }
 
 #[test]
-fn no_call_of_any_scene_takes_more_than_80_kilobytes_of_stack() {
+fn no_call_of_any_scene_takes_more_than_104_kilobytes_of_stack() {
     let mut worst: Vec<(usize, String)> = Vec::new();
     let files = brinell_tests::files_below(&brinell_tests::root().join("scenes"), "toml");
     for file in files {

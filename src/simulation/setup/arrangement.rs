@@ -206,8 +206,8 @@ const PREFERRED: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0
 const HOSTED_SHARE: f64 = 0.3;
 
 /// Force (N) up to which the contact map of a scene reaches: what the scene asks for, or else four times the static
-/// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number. Where the host
-/// moves a ring and nothing loads the other, F is 0.3 of the static load rating.
+/// force on the most loaded element, 5 F/Z (Stribeck), at least 1000 N, rounded up to a preferred number. Where the
+/// host moves a ring and nothing loads the other, F is 0.3 of the static load rating.
 pub fn largest_force(scene: &Scene) -> f64 {
     if let Some(force) = scene.contact.largest_force {
         return force;

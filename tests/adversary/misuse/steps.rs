@@ -198,6 +198,14 @@ pub(super) fn output_derivatives(w: &mut Walker, chance: &mut Chance, kind: bool
     // SAFETY: the arrays are as long as said.
     let status = unsafe { fmi2GetRealOutputDerivatives(w.subject.c, vr, list.len(), orders.as_ptr(), value) };
     w.judge("fmi2GetRealOutputDerivatives", w.unless_wild(verdict), status, || format!("{list:?}, {orders:?}"));
+    if status == Status::Ok {
+        w.follow(move |twin| {
+            let mut values = vec![0.0; list.len()];
+            let (vr, value) = (list.as_ptr(), values.as_mut_ptr());
+            // SAFETY: the arrays are as long as said.
+            unsafe { fmi2GetRealOutputDerivatives(twin.c, vr, list.len(), orders.as_ptr(), value) }
+        });
+    }
     let fine = status != Status::Ok || values.iter().all(|value| value.is_finite());
     w.require(fine, || format!("not finite under OK: {values:?}"));
 }

@@ -56,6 +56,11 @@ pub(super) fn get_real(w: &mut Walker, chance: &mut Chance, kind: bool, _: &Stra
     let result = w.subject.get(&list);
     let status = result.as_ref().err().copied().unwrap_or(Status::Ok);
     w.judge("fmi2GetReal", w.unless_wild(verdict), status, || format!("{list:?}"));
+    // What a host asks for decides what its coupling is told to lose.
+    if status == Status::Ok {
+        let list = list.clone();
+        w.follow(move |twin| twin.get(&list).err().unwrap_or(Status::Ok));
+    }
     let finite = result.iter().flatten().all(|value| value.is_finite());
     w.require(finite, || format!("not finite under OK: {result:?}"));
 }

@@ -1,5 +1,5 @@
-//! A rotor of 3 kg on 1e7 N/m in a host, in every way in which hosts step and wire it, against one simulation that holds
-//! mass and spring: the cells of `docs/how-to/systems.md`.
+//! A rotor of 3 kg on 1e7 N/m in a host, in every way in which hosts step and wire it, against one simulation that
+//! holds mass and spring: the cells of `docs/how-to/systems.md`.
 //!
 //! The rotor rests under half of 500 N; at the start the other half is added.
 

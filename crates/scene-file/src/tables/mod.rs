@@ -250,8 +250,8 @@ impl Default for SolverTable {
 #[derive(JsonSchema, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HostTable {
-    /// Mass that it moves with a ring, for `solver.suggested_step` until its steps have shown it; without it 3.26 kg of a
-    /// shaft and 6.64 kg of a housing.
+    /// Mass that it moves with a ring, for `solver.suggested_step` until its steps have shown it; without it 3.26 kg of
+    /// a shaft and 6.64 kg of a housing.
     mass_kg: Option<f64>,
     /// What inputs are when a step is repeated from the same communication point: those of its start, or of its end.
     #[serde(default)]
