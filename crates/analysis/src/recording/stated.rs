@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | `fs`, `sr`, `sampling_rate` … | samples per second (`…_khz`: thousands) | `bearing.sr` of MFPT |
 //! | `rpm`, `X209RPM` | revolutions of the shaft per minute | CWRU |
+//! | `shaft_speed_rpm`, `motor_rpm`, `shaft_hz`, `rps` | the shaft's speed, in the unit that is said | |
+//! | `speed`, `shaft_speed` | the same, in rev/min from 100 on and below in Hz | `Name` of Paderborn |
 //! | `rate` beside a sampling rate | those per second | `bearing.rate` of MFPT |
 //!
 //! A number stands for a channel of its own structure, or whose name begins as its own: `X209RPM` says nothing of
@@ -21,6 +23,21 @@ const RATES: [&str; 9] = [
     "samplingfreq",
     "samplespersecond",
 ];
+/// What a shaft's speed is called, in small letters without signs between them.
+const SPEEDS: [&str; 10] = [
+    "speed",
+    "shaftspeed",
+    "shaft",
+    "motorspeed",
+    "motor",
+    "rotorspeed",
+    "rotor",
+    "spindlespeed",
+    "rotationalspeed",
+    "rotationspeed",
+];
+/// Speeds without a unit are rev/min from here on, and below in Hz.
+const TURNS_A_MINUTE: f64 = 100.0;
 /// Slower than any recording that shows a bearing: `fs` also names the frequency of the shaft (Hz).
 const SLOWEST: f64 = 500.0;
 
@@ -62,7 +79,11 @@ pub(super) fn speed<'n>(numbers: &'n [(String, f64)], channel: &str) -> Option<S
         let beside = numbers.iter().filter(|(name, _)| name.rsplit_once('.').unwrap_or_default().0 == structure);
         !structure.is_empty() && beside.clone().any(|(name, _)| RATES.contains(&&*last(name)))
     };
-    let read = |name: &'n str, _: f64| match last(name) {
+    let is_speed = |name: Option<&str>| name.is_some_and(|name| SPEEDS.contains(&name) || name == "n");
+    let read = |name: &'n str, value: f64| match last(name) {
+        last if is_speed(last.strip_suffix("rpm")) => Some(("", 1.0 / 60.0)),
+        last if is_speed(last.strip_suffix("hz")) || last == "rps" => Some(("", 1.0)),
+        last if SPEEDS[..2].contains(&&*last) => Some(("", if value < TURNS_A_MINUTE { 1.0 } else { 1.0 / 60.0 })),
         last if last.ends_with("rpm") => {
             let own = &name[name.rfind('.').map_or(0, |dot| dot + 1)..];
             let cut = own.char_indices().rev().nth(2).map_or(0, |(at, _)| at);
@@ -143,6 +164,18 @@ mod tests {
         assert_eq!(rate(&numbers(&[("fs", 12e3), ("sr", 48e3)]), "acc"), None);
         assert_eq!(rate(&numbers(&[("b.fs", 12e3)]), "a.acc"), None);
         assert_eq!(rate(&numbers(&[("a.fs", 12e3)]), "vibration_1 (a.acc)").unwrap().hertz, 12e3);
+        for (name, value, hertz) in [
+            ("shaft_speed_rpm", 600.0, 10.0),
+            ("motor_rpm", 600.0, 10.0),
+            ("n_rpm", 600.0, 10.0),
+            ("speed_hz", 10.0, 10.0),
+            ("shaft_hz", 10.0, 10.0),
+            ("rps", 10.0, 10.0),
+            ("speed", 600.0, 10.0),
+            ("shaft_speed", 10.0, 10.0),
+        ] {
+            assert_eq!(speed(&numbers(&[(name, value)]), "acc").unwrap().hertz, hertz, "{name}");
+        }
         for name in ["rpm", "RPM", "n.rpm", "µrpm", "m"] {
             let _ = speed(&numbers(&[(name, 1.0)]), "n.x");
         }

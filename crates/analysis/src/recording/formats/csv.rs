@@ -61,9 +61,11 @@ pub(crate) fn columns(text: &str, ending: &str, format: TextFormat) -> Result<Co
         let record = record.map_err(|why| why.to_string())?;
         let line = record.position().map_or(0, csv::Position::line);
         let cells = cells(&record);
-        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| number(cell, decimal)).collect();
+        let number_or_clock = |cell: &&str| number(cell, decimal).or_else(|| is_clock(cell).then_some(f64::NAN));
+        let numbers: Option<Vec<f64>> = cells.iter().map(number_or_clock).collect();
         if columns.is_empty() {
-            let Some(first) = numbers.filter(|numbers| !numbers.is_empty()) else {
+            let has_numbers = cells.iter().any(|cell| number(cell, decimal).is_some());
+            let Some(first) = numbers.filter(|_| has_numbers) else {
                 preamble.push(record);
                 if preamble.len() > LONGEST_PREAMBLE {
                     break;
@@ -108,6 +110,14 @@ fn cells(record: &csv::StringRecord) -> Vec<&str> {
         cells.pop();
     }
     cells
+}
+
+/// Whether this is a date or a time of the day, which is no number of a channel.
+fn is_clock(cell: &str) -> bool {
+    let count = |signs: &[char]| cell.matches(signs).count();
+    cell.starts_with(|c: char| c.is_ascii_digit())
+        && cell.chars().all(|c| c.is_ascii_digit() || "-/:.,+ TZ".contains(c))
+        && (count(&[':']) >= 1 || count(&['-', '/']) == 2)
 }
 
 /// A number with this decimal sign and no other.
@@ -161,6 +171,17 @@ mod tests {
         // Two rows are two channels, unless a heading says what stands below it.
         assert_eq!(columns("1,2,3\n4,5,6\n", "csv", default).unwrap().1, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         assert_eq!(columns("a,b,c\n1,2,3\n4,5,6\n", "csv", default).unwrap().1.len(), 3);
+    }
+
+    #[test]
+    fn clocks_as_text_are_columns_without_numbers() {
+        let text = "at,day,acc\n2021-03-01 12:00:00.002,01/03/2021,1.5\n2021-03-01 12:00:00.003,01/03/2021,-2\n";
+        let (names, columns) = columns(text, "csv", TextFormat::default()).unwrap();
+        assert_eq!((names, &columns[2][..]), (["at", "day", "acc"].map(str::to_owned).to_vec(), &[1.5, -2.0][..]));
+        assert!(columns[..2].iter().flatten().all(|value| value.is_nan()));
+        // A date alone stands before the numbers, and a word is none.
+        assert_eq!(self::columns("12:00:00\n1\n2\n", "csv", TextFormat::default()).unwrap().1, [[1.0, 2.0]]);
+        assert!(self::columns("1,2\n1,x\n", "csv", TextFormat::default()).is_err());
     }
 
     #[test]
