@@ -111,7 +111,7 @@ fn an_equilibrium_beyond_the_contact_map_is_refused() {
         let mut bearing = Named::new(scene);
         bearing.set(name, value);
         let message = bearing.0.initialize(0.0).unwrap_err().to_string();
-        let named = ["element 1, ", "finds no balance", "limit of the contact map", "largest_force_n"];
+        let named = ["element 1, ", "finds no balance", "equivalent approach in the contact map", "largest_force_n"];
         assert!(named.iter().all(|part| message.contains(part)) && !message.contains("NaN"), "{name}: {message}");
     }
 }
