@@ -68,9 +68,11 @@ proptest! {
             let [still, there] = [still, there].map(|at| Touch::of(&groove, &at));
             prop_assert!((there.approach - still.approach).abs() < 2e-17);
             let normal = rotated(upright.in_meridian(still.normal));
+            // d, not above 0 on the far side of the circle, where there is no contact.
+            let distance = (still.approach + groove.reach).max(0.0);
             for (one, other) in tilted.in_meridian(there.normal).into_iter().zip(normal) {
-                // Rounding of 20 mm over the 120 µm of d.
-                prop_assert!((one - other).abs() < 1e-12);
+                // A direction over d is lost to the rounding of 20 mm.
+                prop_assert!((one - other).abs() * distance < 1.2e-16);
             }
         }
     }
