@@ -166,8 +166,12 @@ impl Loads {
             );
         }
         // Of a hosted ring the file has no load to ask about, and of others the size of all of it.
-        load.filter(|_| asked.hosted).into_iter().for_each(|load| ask_unit(bearing, "shaft.load_n", load, "--load"));
-        axial.into_iter().for_each(|axial| ask_unit(bearing, "shaft.load_n", axial, "--axial"));
+        if let Some(load) = load.filter(|_| asked.hosted) {
+            ask_unit(bearing, "shaft.load_n", load, "--load");
+        }
+        if let Some(axial) = axial {
+            ask_unit(bearing, "shaft.load_n", axial, "--axial");
+        }
         let (axial, axial_source) = match axial {
             Some(axial) => (Some(axial), "as asked for"),
             None if leans => (Some(across), "as much along the axis, assumed"),

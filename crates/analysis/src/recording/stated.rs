@@ -36,6 +36,8 @@ const SPEEDS: [&str; 10] = [
     "rotationalspeed",
     "rotationspeed",
 ];
+/// Those that say it without a unit.
+const BARE_SPEEDS: [&str; 2] = ["speed", "shaftspeed"];
 /// Speeds without a unit are rev/min from here on, and below in Hz.
 const TURNS_A_MINUTE: f64 = 100.0;
 /// Slower than any recording that shows a bearing: `fs` also names the frequency of the shaft (Hz).
@@ -83,7 +85,7 @@ pub(super) fn speed<'n>(numbers: &'n [(String, f64)], channel: &str) -> Option<S
     let read = |name: &'n str, value: f64| match last(name) {
         last if is_speed(last.strip_suffix("rpm")) => Some(("", 1.0 / 60.0)),
         last if is_speed(last.strip_suffix("hz")) || last == "rps" => Some(("", 1.0)),
-        last if SPEEDS[..2].contains(&&*last) => Some(("", if value < TURNS_A_MINUTE { 1.0 } else { 1.0 / 60.0 })),
+        last if BARE_SPEEDS.contains(&&*last) => Some(("", if value < TURNS_A_MINUTE { 1.0 } else { 1.0 / 60.0 })),
         last if last.ends_with("rpm") => {
             let own = &name[name.rfind('.').map_or(0, |dot| dot + 1)..];
             let cut = own.char_indices().rev().nth(2).map_or(0, |(at, _)| at);

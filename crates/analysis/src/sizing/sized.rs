@@ -139,7 +139,7 @@ impl Sized {
     /// Why the length by events on the inner raceway is none of a single recording.
     pub(super) fn inside_alone(&self) -> Option<Unresolved> {
         let is_inside = self.measured.raceway == Raceway::Inner && self.length.is_ok();
-        is_inside.then(|| Unresolved::InsideAlone(self.passage.impacts().last().copied().unwrap_or(0.0)))
+        is_inside.then(|| Unresolved::InsideAlone(self.span().unwrap_or(0.0)))
     }
 
     /// From first to last impact (degrees), where that is all that is known of the length: no entry is seen, or where

@@ -120,11 +120,7 @@ pub fn size_with(
 /// What is left of a length (degrees): the least that recordings with wandering onsets have, or the most that one has.
 fn at_least(onset: Result<(), Wandering>, sized: &[Sized]) -> Option<f64> {
     let wandering = onset.err().map(|wandering| wandering.at_least);
-    let all = sized.iter().filter_map(Sized::at_least);
-    match wandering {
-        Some(least) => Some(least),
-        None => all.reduce(f64::max),
-    }
+    wandering.or_else(|| sized.iter().filter_map(Sized::at_least).reduce(f64::max))
 }
 
 /// Equal recordings are one: counted twice it would narrow the interval.

@@ -6,7 +6,7 @@
 //! tolerances are without effect and named as such; what is not known, or would change the bearing, is asked about.
 
 use super::clearance::ClearanceClass;
-use super::suffixes::{MARK_OF_MOTORS, Meaning, class_within, codes};
+use super::suffixes::{Meaning, class_within, codes};
 use super::{CatalogueBearing, Designation, Kind, NotInCatalogue, catalogue};
 
 /// Makers of bearings, who stand in front of a name or behind it.
@@ -244,7 +244,7 @@ impl Parts {
             Meaning::WithoutEffect(what) => self.without_effect.push((code, what)),
             Meaning::Asked(what) => self.asked.push((code, Some(what))),
             Meaning::Hybrid => self.hybrid = true,
-            Meaning::Clearance(class) if code == MARK_OF_MOTORS => self.implied = Some(class),
+            Meaning::ImpliedClearance(class) => self.implied = Some(class),
             Meaning::Clearance(class) => {
                 if !self.classes.contains(&class) {
                     self.classes.push(class);

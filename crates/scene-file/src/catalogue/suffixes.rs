@@ -14,6 +14,8 @@ pub(super) enum Meaning {
     WithoutEffect(&'static str),
     /// A clearance class, after what else is in the word.
     Clearance(ClearanceClass),
+    /// A clearance class, where the name says no other.
+    ImpliedClearance(ClearanceClass),
     /// Elements of silicon nitride.
     Hybrid,
     /// Something that would change the bearing, and what to do.
@@ -105,9 +107,6 @@ const ASKED_OF_BALLS: [(&str, &[&str]); 1] = [(MORE_BALLS, &["E"])];
 const ASKED_OF_MINIATURES: [(&str, &[&str]); 2] = [(CLEARANCE, &["MC#"]), (MORE_BALLS, &["E"])];
 const ASKED_OF_ROLLERS: [(&str, &[&str]); 2] = [(FULL, &["V", "VH", "CV"]), (TAPER, &["K", "K30"])];
 
-/// SKF's mark of bearings for electric motors: C3, and a grease.
-pub(super) const MARK_OF_MOTORS: &str = "JEM";
-
 /// Words for elements of silicon nitride.
 const HYBRID: [&str; 6] = ["HC", "HC#", "HYBRID", "HYB", "SI3N4", "SN24"];
 
@@ -168,8 +167,9 @@ fn meaning(code: &str, kind: Kind) -> Option<Meaning> {
     if HYBRID.iter().any(|pattern| fits(code, pattern)) {
         return Some(Meaning::Hybrid);
     }
-    if code == MARK_OF_MOTORS {
-        return ClearanceClass::of("C3").map(Meaning::Clearance);
+    // SKF's mark of bearings for electric motors: C3, and a grease.
+    if code == "JEM" {
+        return ClearanceClass::of("C3").map(Meaning::ImpliedClearance);
     }
     // C2 to C9 of a single angular contact bearing are those of sets.
     if let Some(class) = ClearanceClass::of(code) {
