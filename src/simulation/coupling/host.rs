@@ -5,8 +5,7 @@
 //!
 //! *Which force.* The bearing knows all that may be held; that is taken whose changes are parallel to the jumps. They
 //! are half a step apart from each other, and jumps are exact but for (ωh)³: a phase of ωh/2 shows after a part of a
-//! swing.
-//! Where there are no jumps, force is interpolated; who asks for its derivative uses that.
+//! swing. Where there are no jumps, force is interpolated; who asks for its derivative uses that.
 //!
 //! *Spring and damper* are what is left: R = m ā − U, its change Δ R = −k Δx − c Δv. Without jumps mass and spring
 //! cannot be told apart in an oscillation; the spring is then taken into the mass, which leaves the frequency.
@@ -144,7 +143,6 @@ impl Host {
     fn learn(&mut self, step: &Step, (forces, line): (&[Triple; FORCES], Triple), way: &Way, start: Triple) {
         let before = self.before;
         self.steps += 1.0;
-        let fade = |sums: &mut [f64], new: &[f64]| sums.iter_mut().zip(new).for_each(|(s, n)| *s = FADING * *s + n);
         let jump = start - before.end;
         let mut changes: [Triple; FORCES] = std::array::from_fn(|k| forces[k] - before.forces[k]);
         if step.is_foretold == 0.0 {
@@ -184,7 +182,7 @@ impl Host {
         }
         let [x, v, r] = [way.place - before.place, way.velocity - before.velocity, rest - before.rest];
         let new = [x.dot(&x), x.dot(&v), v.dot(&v), x.dot(&r), v.dot(&r)];
-        self.rest.iter_mut().zip(new).for_each(|(sum, new)| *sum = FADING * *sum + new);
+        fade(&mut self.rest, &new);
         if self.steps > SETTLED_REST
             && let Some([k, c]) = least_squares(self.rest)
         {
@@ -252,6 +250,11 @@ impl Host {
 
 /// Change over a step of a force that goes along a line, by its rate at the start where the host asks for that, and its
 /// mean.
+/// Adds to sums of which what is old counts less and less.
+fn fade(sums: &mut [f64], new: &[f64]) {
+    sums.iter_mut().zip(new).for_each(|(sum, new)| *sum = FADING * *sum + new);
+}
+
 fn change_along_a_line(step: &Step, ring: usize) -> Triple {
     if step.has_rate > 0.0 { step.rate[ring] * step.length } else { step.end[ring] - step.start[ring] }
 }

@@ -33,8 +33,7 @@
 //! sequence, 1400 times apart in error, have the same gap. So the gap alone cannot tell them apart; r can.
 //!
 //! *A held force on a linear spring, without R,* is closed: x, v after a step are x + v h − K x h²/2m, v − K x h/m,
-//! and the
-//! amplitude grows by √(1 + (ωh)²/2) a step, as exp(ω² h t/4). The tests compare with it.
+//! and the amplitude grows by √(1 + (ωh)²/2) a step, as exp(ω² h t/4). The tests compare with it.
 //!
 //! Rotations are left out: tilts and moments, and what a host does to them.
 
@@ -183,8 +182,7 @@ mod tests {
     const STEPS: usize = 2500;
 
     /// What a mass on a linear spring tells, under the force of the step's start or under its mean, each held: its
-    /// mass,
-    /// the error, and that of the recursion against cos ωt, both as shares of the way.
+    /// mass, the error, and that of the recursion against cos ωt, both as shares of the way.
     fn mass_on_a_spring(takes_mean: bool) -> (f64, [f64; 2]) {
         let along = |x: f64| Triple::new(x, 0.0, 0.0);
         let bodies = [Body { is_hosted: true, ..Body::default() }, Body::default()];
@@ -221,8 +219,8 @@ mod tests {
     #[test]
     fn a_held_force_makes_a_mass_on_a_spring_swing_further_as_its_closed_form_says_and_is_told_so() {
         // Amplitudes grow as √(1 + (ωh)²/2)ⁿ: exp(ω² h t/4) at the end, 5.1 % of it, and two thirds of that in rms of
-        // the
-        // growth over 5 ms. What is forgotten in that time is an eighth of it, and the first six steps are not counted.
+        // the growth over 5 ms. What is forgotten in that time is an eighth of it, and the first six steps are not
+        // counted.
         let (mass, [told, error]) = mass_on_a_spring(false);
         assert!((mass / MASS - 1.0).abs() < 1e-4, "{mass} kg");
         let growth = (SPRING / MASS * STEP * STEP * STEPS as f64 / 4.0).exp_m1();

@@ -8,15 +8,12 @@
 //! times that. `force` held is of first order: for 1 % it wants ωh = [`FIRST_ORDER`].
 //!
 //! How a host is wired, and which mass it moves, shows after some steps: [`coupling`](crate::simulation::coupling).
-//! Before
-//! that, who reads after the first step `force` alone is taken for one that holds it ([`Wiring`]), and the mass is the
-//! scene's (`host.mass_kg`), or that of published models, 3.26 kg for a shaft and 6.64 kg for a housing. With m times
-//! the
-//! mass the step is √m times as long.
+//! Before that, who reads after the first step `force` alone is taken for one that holds it ([`Wiring`]), and the mass
+//! is the scene's (`host.mass_kg`), or that of published models, 3.26 kg for a shaft and 6.64 kg for a housing. With m
+//! times the mass the step is √m times as long.
 //!
 //! A bearing that hardly touches is soft, and stiff a moment later: it counts as one on which an element is pressed by
-//! a
-//! hundredth of what it would carry under the static load rating C₀ ([`least_stiffness`]).
+//! a hundredth of what it would carry under the static load rating C₀ ([`least_stiffness`]).
 
 use super::value_access::{FORCE, SECOND};
 use crate::contact::law::elastic_law;
